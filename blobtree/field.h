@@ -1,0 +1,142 @@
+// The compiled field of a BlobTree, pruned fields that are exact in a box, and the evaluator.
+// Field and PrunedField are immutable and may be shared by threads; an Evaluator is scratch, one per thread.
+#pragma once
+
+#include "blobtree/blobtree.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace cambium {
+
+struct CompiledTree;  // private to blobtree/
+
+/// Field value and its analytic gradient (1/m). The outward normal is -gradient/|gradient|.
+struct Sample {
+  double value = 0;
+  Vec3 gradient{0.0};
+};
+
+/// What one primitive contributes at a point (field.md section 7): weight f_i > 0 and its native coordinates.
+struct Contribution {
+  double weight = 0;
+  double u = 0;        ///< turns, [0, 1)
+  double v = 0;        ///< metres along the branch axis
+  double radius = 0;   ///< local surface radius, metres
+  std::uint32_t branch = 0;
+  std::uint32_t order = 0;
+};
+
+/// How the surface at a point came about, each in [0, 1]: made by the subtracted side of a difference or intersection with a
+/// half-space (a cut face), raised or pressed by contact modelling (a ridge), dented by negative strength (a scar).
+struct SurfaceTraits {
+  double cut = 0;
+  double ridge = 0;
+  double dent = 0;
+};
+
+/// Primitives (chain segments count singly) that can be non-zero in some box, ascending in depth-first order.
+struct ActiveSet {
+  std::vector<std::uint32_t> atoms;
+};
+
+/// A field that equals the whole field exactly (to the last bit in double) inside box(), and holds only what can be
+/// non-zero there.
+class PrunedField {
+ public:
+  PrunedField() = default;
+  const Box& box() const { return box_; }
+  const Vec3& origin() const { return origin_; }   ///< batches are relative to this (the box's centre)
+  bool empty() const { return tape_.empty(); }     ///< zero everywhere in the box
+  std::size_t atom_count() const { return atom_count_; }
+  std::size_t memory_bytes() const;
+  /// The smallest surface radius of an active primitive, metres (infinite if none has one).
+  double smallest_radius() const { return smallest_radius_; }
+
+  struct Instruction {                             // postfix; see tape.h
+    std::uint8_t op = 0;
+    std::uint8_t with_zero = 0;
+    std::uint16_t frame = 0;
+    std::uint32_t node = 0;                        ///< node in the compiled tree
+    std::uint32_t first = 0;                       ///< first of `count` entries in slots_
+    std::uint32_t count = 0;
+  };
+
+ private:
+  friend class Field;
+  friend class Evaluator;
+  friend class TapeBuilder;
+  std::shared_ptr<const CompiledTree> tree_;
+  Box box_;
+  Vec3 origin_{0.0};
+  std::vector<Instruction> tape_;
+  std::vector<std::uint32_t> slots_;               ///< child slots of operators, segments of chains
+  std::vector<std::uint32_t> frames_;              ///< warp node of each frame; frame 0 (the world) is not listed
+  std::uint32_t stack_size_ = 0;
+  std::uint32_t atom_count_ = 0;
+  double smallest_radius_ = kInfinity;
+};
+
+/// Compiled once from a BlobTree. Memory: linear in primitives.
+class Field {
+ public:
+  /// Errors: InvalidNode if the field is unbounded (a half-space that nothing bounds) or a bend is invalid (support >= rho).
+  explicit Field(const BlobTree& tree);
+
+  /// Outside this box the field is exactly 0.
+  const Box& bounds() const;
+  std::size_t atom_count() const;      ///< primitives, chain segments counted singly
+
+  /// Thread safe; cost: the primitives active at p and a logarithmic search. For many points prune once and use batches.
+  double value(const Vec3& p) const;
+  Sample sample(const Vec3& p) const;
+  /// Conservative: contains every value taken in the box.
+  Interval interval(const Box& box) const;
+
+  PrunedField prune(const Box& box) const;
+  PrunedField whole() const;           ///< unpruned: every primitive and operator, for tests and tiny trees
+
+  ActiveSet active(const Box& box) const;
+  ActiveSet narrow(const ActiveSet& from, const Box& box) const;   ///< box inside the box of `from`; cost: |from|
+  PrunedField prune(const ActiveSet& active, const Box& box) const;
+
+  /// Surface radius and support box of one atom (for cell-size rules and reports).
+  double atom_radius(std::uint32_t atom) const;    ///< smallest surface radius along it; kInfinity for a half-space
+  const Box& atom_bounds(std::uint32_t atom) const;
+
+ private:
+  std::shared_ptr<const CompiledTree> tree_;
+};
+
+/// Scratch for evaluation: one per thread.
+class Evaluator {
+ public:
+  Evaluator();
+  ~Evaluator();
+  Evaluator(const Evaluator&) = delete;
+  Evaluator& operator=(const Evaluator&) = delete;
+
+  double value(const PrunedField& field, const Vec3& p);
+  Sample sample(const PrunedField& field, const Vec3& p);
+  /// Conservative over the part of the ball inside field.box().
+  Interval interval(const PrunedField& field, const Ball& ball);
+  Interval interval(const PrunedField& field, const Box& box) { return interval(field, circumscribed_ball(box)); }
+
+  /// Batches: SoA floats relative to field.origin(), equal lengths. Agree with value()/sample() to 1e-4.
+  void values(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,
+              std::span<float> f);
+  void samples(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,
+               std::span<float> f, std::span<float> gx, std::span<float> gy, std::span<float> gz);
+
+  /// Appends nothing but what contributes at p; primitives taken away by a difference do not. Clears `out` first.
+  void contributions(const PrunedField& field, const Vec3& p, std::vector<Contribution>& out);
+  SurfaceTraits surface_traits(const PrunedField& field, const Vec3& p);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace cambium

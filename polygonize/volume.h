@@ -1,0 +1,32 @@
+// Field to OpenVDB grids.
+#pragma once
+
+#include "blobtree/field.h"
+#include "blobtree/run_options.h"
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace cambium {
+
+enum class VolumeKind { kField, kSdf, kFog };
+
+struct VolumeOptions {
+  double voxel = 0.005;                  ///< metres
+  VolumeKind kind = VolumeKind::kSdf;
+  double half_width = 3;                 ///< narrow band, voxels each side (sdf, fog)
+};
+
+struct VolumeReport {
+  std::size_t active_voxels = 0;
+  double voxel = 0;
+};
+
+/// Writes one float grid named "field" (f itself, background 0), "surface" (level set, negative inside, metres) or "density"
+/// (fog volume) to exactly `path`. nullopt if cancelled (nothing is left). Errors: InputError for bad sizes, std::runtime_error
+/// naming the path when writing fails.
+std::optional<VolumeReport> write_volume(const Field& field, const VolumeOptions& options, const std::filesystem::path& path,
+                                         const RunOptions& run);
+
+}  // namespace cambium
