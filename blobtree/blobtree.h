@@ -14,8 +14,9 @@
 namespace cambium {
 
 inline constexpr double kIso = 0.5;                           ///< the surface is f = kIso, inside is f >= kIso
-inline constexpr double kSupportPerRadius = 2.2016634851;     ///< R = r / sqrt(1 - c^(1/3))
-inline constexpr double kRadiusPerSupport = 0.4542022449;     ///< its inverse, as field.md writes it
+inline constexpr double kSupportPerRadius = 2.201663485154594;    ///< R = r / sqrt(1 - c^(1/3))
+/// Its inverse. field.md prints 0.4542022449, which is off in the seventh digit: with it a chain would miss its radius by 5e-7 r.
+inline constexpr double kRadiusPerSupport = 0.45420201894740647;
 
 using NodeId = std::uint32_t;
 

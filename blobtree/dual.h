@@ -1,0 +1,62 @@
+// A field value with its gradient, closed under the arithmetic that operators need (forward differentiation: exact, no steps).
+#pragma once
+
+#include "blobtree/skeleton_primitives.h"
+
+namespace cambium {
+
+template <class T>
+struct Dual {
+  T f{0};
+  Vec<T> g{T(0)};
+
+  Dual() = default;
+  Dual(T value) : f(value) {}
+  Dual(T value, const Vec<T>& gradient) : f(value), g(gradient) {}
+};
+
+template <class T> Dual<T> operator+(const Dual<T>& a, const Dual<T>& b) { return {a.f + b.f, a.g + b.g}; }
+template <class T> Dual<T> operator-(const Dual<T>& a, const Dual<T>& b) { return {a.f - b.f, a.g - b.g}; }
+template <class T> Dual<T> operator*(const Dual<T>& a, const Dual<T>& b) { return {a.f * b.f, a.f * b.g + b.f * a.g}; }
+template <class T> Dual<T> operator/(const Dual<T>& a, const Dual<T>& b) {
+  const T q = a.f / b.f;
+  return {q, (a.g - q * b.g) / b.f};
+}
+
+template <class N>
+struct NumberOf {
+  using type = N;
+};
+template <class T>
+struct NumberOf<Dual<T>> {
+  using type = T;
+};
+
+/// The plain value of a number, and a number from a value and the gradient that it has.
+inline double value_of(double a) { return a; }
+inline float value_of(float a) { return a; }
+template <class T> T value_of(const Dual<T>& a) { return a.f; }
+
+template <class N>
+N with_gradient(typename NumberOf<N>::type value, const Vec<typename NumberOf<N>::type>& gradient) {
+  if constexpr (std::is_floating_point_v<N>) {
+    (void)gradient;
+    return value;
+  } else {
+    return N(value, gradient);
+  }
+}
+
+/// a^e for a >= 0.
+template <class T>
+  requires std::is_floating_point_v<T>
+T power(T a, T e) {
+  return std::pow(a, e);
+}
+template <class T>
+Dual<T> power(const Dual<T>& a, T e) {
+  const T p = std::pow(a.f, e);
+  return {p, a.f > T(0) ? (e * p / a.f) * a.g : Vec<T>(T(0))};
+}
+
+}  // namespace cambium
