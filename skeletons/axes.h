@@ -1,0 +1,66 @@
+// A skeleton taken apart into axes: unbroken paths, each borne by another (field.md section 6).
+#pragma once
+
+#include "skeletons/skeleton.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cambium {
+
+struct AxisNode {
+  Vec3 position{0.0};
+  double radius = 0;
+};
+
+/// A place on an axis: on the segment from nodes[segment] to nodes[segment + 1], t in [0, 1].
+struct AxisPlace {
+  std::uint32_t segment = 0;
+  double t = 0;
+};
+
+/// Where a branch was sawn off; the axis then ends a little beyond the plane, straight.
+struct AxisCut {
+  Vec3 point{0.0}, normal{0.0};            ///< the plane; the normal points to what falls off
+  double along = 0;                        ///< metres along the axis
+};
+
+/// One path. nodes[0] lies on the parent axis (with the lateral's base radius), or is the root.
+struct Axis {
+  std::uint32_t branch = 0;                ///< its id: 0 is the trunk
+  std::uint32_t order = 0;                 ///< 0 at a root, else the parent's + 1
+  std::int32_t parent = -1;                ///< index of the axis that bears it; stands before it
+  AxisPlace attach;                        ///< where on the parent
+  std::vector<AxisNode> nodes;
+  std::optional<AxisCut> cut;
+};
+
+/// Axes in an order in which parents stand first. Breadth first as made by decompose_axes, so ids are low on thick wood.
+struct AxisTree {
+  std::vector<Axis> axes;
+};
+
+/// The child that continues an axis is the unbracketed one (`lateral` false), else the thickest, else the straightest, else
+/// the first. Nodes that are not finite take their parent's place; coincident neighbours are merged (their number is
+/// added to *merged). Cost: linear; no recursion.
+AxisTree decompose_axes(const Skeleton& skeleton, std::size_t* merged = nullptr);
+
+Vec3 position_at(const Axis& axis, const AxisPlace& place);
+double radius_at(const Axis& axis, const AxisPlace& place);
+/// Unit; at an inner node the mean of both segments. (0, 0, 1) on an axis without length.
+Vec3 tangent_at(const Axis& axis, const AxisPlace& place);
+/// Metres from the first node to each node.
+std::vector<double> lengths_along(const Axis& axis);
+AxisPlace place_at_length(const std::vector<double>& lengths, double along);
+/// The place nearest to p among all segments. Cost: linear in the axis.
+AxisPlace nearest_place(const Axis& axis, const Vec3& p);
+/// The same by walking from `from` for as long as the distance falls. Cost: the walk.
+AxisPlace walk_to_nearest(const Axis& axis, AxisPlace from, const Vec3& p);
+
+/// Direction across t, as near to `wanted` as can be. t is a unit vector.
+Vec3 across(const Vec3& t, const Vec3& wanted);
+/// u turned with the smallest rotation that takes unit vector `from` to unit vector `to`.
+Vec3 transported(const Vec3& u, const Vec3& from, const Vec3& to);
+
+}  // namespace cambium
