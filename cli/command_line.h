@@ -1,0 +1,37 @@
+// What the user typed, and running it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cambium {
+
+enum class Command { kDerive, kGrow, kSurface, kEval, kMesh, kVolume, kRender, kInfo };
+
+/// One parsed command line. Lengths and sizes are still text; an empty string or optional was not given.
+struct CommandLine {
+  Command command = Command::kInfo;
+  std::string command_name;
+  std::string input, output;
+  int threads = 0;
+  std::optional<std::uint64_t> seed;
+  bool quiet = false, json = false;
+  std::vector<std::string> overrides;        ///< of --set
+  std::string points;                        ///< eval
+  std::string voxel;                         ///< mesh, volume
+  std::string tolerance, up;                 ///< mesh
+  std::optional<std::size_t> max_triangles;  ///< mesh
+  std::string kind;                          ///< volume
+  std::string size;                          ///< render
+  std::optional<int> samples;                ///< render
+  std::vector<std::string> aovs;             ///< render
+};
+
+/// Parses and runs; prints figures on stdout and at most one line of error on stderr.
+/// Returns the exit status: 0 done, 2 bad usage or input, 1 anything else.
+int run_command_line(int argc, char** argv);
+
+}  // namespace cambium

@@ -1,0 +1,145 @@
+#include "cli/job.h"
+
+#include <utility>
+
+#include "blobtree/blobtree_json.h"
+#include "cli/read_text.h"
+#include "skeletons/skeleton_io.h"
+
+namespace cambium {
+namespace {
+
+/// Sets source and source_kind, and checks that there is such a file.
+void find_source(Job& job) {
+  const SkeletonRecipe& skeleton = job.recipe.skeleton;
+  if (skeleton.lsystem) {
+    job.source = *skeleton.lsystem;
+    job.source_kind = InputKind::kLSystem;
+  } else if (skeleton.file) {
+    job.source = *skeleton.file;
+    job.source_kind = input_kind(job.source);
+    if (job.source_kind == InputKind::kRecipe)
+      throw InputError(skeleton.named_at, "a recipe as the skeleton's file", ".skel.json, .swc, .csv or .blob.json");
+  }
+  require_readable(job.source, job.source == job.line.input ? nullptr : &skeleton.named_at);
+}
+
+Skeleton walk_turtle(Job& job, const ModuleString& string, const LSystem& system) {
+  const StageTimer timer(job.figures, "turtle");
+  Turtled turtled = interpret(string, system, job.recipe.skeleton.turtle);
+  if (turtled.radii_clamped > 0) job.figures.set("turtle_radii_clamped", turtled.radii_clamped);
+  if (!turtled.skipped.empty()) job.figures.set("skipped_symbols", turtled.skipped);
+  return std::move(turtled.skeleton);
+}
+
+/// surface() knows no files. Where it refuses one of the recipe's prunes or scars, the place in the recipe is that of the
+/// first that is refused alone.
+Surfaced surface_with_places(const Job& job, const Skeleton& skeleton) {
+  const SurfaceOptions& options = job.recipe.surface;
+  try {
+    return surface(skeleton, options);
+  } catch (const InputError& error) {
+    if (!error.location().file.empty()) throw;
+    const auto refused_alone = [&](const std::vector<Prune>& prunes, const std::vector<Scar>& scars) {
+      SurfaceOptions alone = options;
+      alone.prunes = prunes;
+      alone.scars = scars;
+      alone.random_scars.count = 0;
+      try {
+        surface(skeleton, alone);
+      } catch (const InputError&) {
+        return true;
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < options.prunes.size(); ++i)
+      if (refused_alone({options.prunes[i]}, {})) throw InputError(job.recipe.prunes_at[i], error.found(), error.expected());
+    for (std::size_t i = 0; i < options.scars.size(); ++i)
+      if (refused_alone({}, {options.scars[i]})) throw InputError(job.recipe.scars_at[i], error.found(), error.expected());
+    throw InputError({job.source.string()}, error.found(), error.expected());
+  }
+}
+
+}  // namespace
+
+Job::Job(const CommandLine& command_line, const std::atomic<bool>& cancel)
+    : line(command_line), source(line.input), progress(!line.quiet) {
+  require_readable(line.input);
+  const InputKind kind = input_kind(line.input);
+  recipe = kind == InputKind::kRecipe ? read_recipe(line.input, line.overrides) : empty_recipe(line.input, line.overrides);
+  source_kind = kind;
+  find_source(*this);
+  if (line.seed) {
+    recipe.skeleton.seed = line.seed;
+    recipe.surface.seed = *line.seed;
+    recipe.render.seed = *line.seed;
+  }
+  run.threads = line.threads;
+  run.cancel = &cancel;
+  run.progress = [this](std::string_view stage, double fraction) { progress.show(stage, fraction); };
+  figures.set("command", line.command_name);
+  figures.set("input", line.input);
+  if (!line.output.empty()) figures.set("output", line.output);
+}
+
+std::optional<ModuleString> derive_string(Job& job, const LSystem& system) {
+  const StageTimer timer(job.figures, "derive");
+  DeriveOptions options;
+  options.seed = job.recipe.skeleton.seed;
+  options.steps = job.recipe.skeleton.steps;
+  return derive(system, options, job.run);
+}
+
+std::optional<Skeleton> grow_skeleton(Job& job) {
+  if (job.source_kind == InputKind::kBlobTree)
+    throw InputError({job.source.string()}, "a BlobTree",
+                     "an input with a skeleton: .tree.toml, .l, .skel.json, .swc or .csv");
+  if (job.source_kind == InputKind::kSkeleton) {
+    const StageTimer timer(job.figures, "read");
+    return read_skeleton(job.source);
+  }
+  const LSystem system = LSystem::load(job.source);
+  const auto string = derive_string(job, system);
+  if (!string || job.run.cancelled()) return std::nullopt;
+  return walk_turtle(job, *string, system);
+}
+
+std::optional<BuiltTree> build_tree(Job& job) {
+  if (job.source_kind == InputKind::kBlobTree) {
+    const StageTimer timer(job.figures, "read");
+    return BuiltTree{read_blobtree(job.source), std::nullopt};
+  }
+  const auto skeleton = grow_skeleton(job);
+  if (!skeleton || job.run.cancelled()) return std::nullopt;
+  const StageTimer timer(job.figures, "surface");
+  Surfaced surfaced = surface_with_places(job, *skeleton);
+  return BuiltTree{std::move(surfaced.tree), std::move(surfaced.report)};
+}
+
+Field compile_field(Job& job, const BlobTree& tree) {
+  const StageTimer timer(job.figures, "compile");
+  try {
+    return Field(tree);
+  } catch (const InvalidNode& error) {
+    throw InputError({job.source.string()}, error.found() + " for '" + error.key() + "'", error.expected());
+  }
+}
+
+std::optional<Field> build_field(Job& job) {
+  const auto built = build_tree(job);
+  if (!built || job.run.cancelled()) return std::nullopt;
+  return compile_field(job, built->tree);
+}
+
+std::vector<BarkMaterial> load_bark(const Recipe& recipe) {
+  std::vector<BarkMaterial> materials;
+  for (const BarkRecipe& bark : recipe.bark) {
+    materials.push_back(bark.material);
+    if (!bark.texture) continue;
+    require_readable(*bark.texture, &bark.texture_named_at);
+    materials.back().texture = load_texture(*bark.texture);
+  }
+  return materials;
+}
+
+}  // namespace cambium

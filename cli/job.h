@@ -1,0 +1,55 @@
+// One run of one command: what was asked, how to run it, what it reports; and the stages that commands share.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+
+#include "blobtree/field.h"
+#include "cli/command_line.h"
+#include "cli/figures.h"
+#include "cli/input_kind.h"
+#include "cli/progress.h"
+#include "cli/recipe.h"
+
+namespace cambium {
+
+enum class Outcome { kDone, kInterrupted };
+
+class Job {
+ public:
+  /// Reads the recipe and applies --set and --seed. Errors: InputError.
+  Job(const CommandLine& line, const std::atomic<bool>& cancel);
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  const CommandLine& line;
+  Recipe recipe;
+  std::filesystem::path source;                  ///< the file that the tree comes from: the input, or what the recipe names
+  InputKind source_kind = InputKind::kSkeleton;  ///< never kRecipe
+  Figures figures;
+  ProgressLine progress;
+  RunOptions run;
+};
+
+// Each stage times itself in job.figures and returns nullopt when interrupted. Errors: InputError, also where the source
+// cannot give what the stage makes.
+
+std::optional<ModuleString> derive_string(Job& job, const LSystem& system);
+std::optional<Skeleton> grow_skeleton(Job& job);
+
+/// A BlobTree and, unless it was read from a file, what happened on the way to it.
+struct BuiltTree {
+  BlobTree tree;
+  std::optional<SurfaceReport> report;
+};
+std::optional<BuiltTree> build_tree(Job& job);
+
+Field compile_field(Job& job, const BlobTree& tree);
+/// build_tree and compile_field.
+std::optional<Field> build_field(Job& job);
+
+/// The recipe's bark with its images loaded; empty: the built-in.
+std::vector<BarkMaterial> load_bark(const Recipe& recipe);
+
+}  // namespace cambium

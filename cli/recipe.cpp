@@ -1,0 +1,278 @@
+#include "cli/recipe.h"
+
+#include <limits>
+#include <numbers>
+#include <tuple>
+
+#include "cli/read_text.h"
+#include "cli/recipe_override.h"
+#include "cli/recipe_value.h"
+#include "cli/units.h"
+
+namespace cambium {
+namespace {
+
+constexpr std::int64_t kLargestInteger = std::numeric_limits<std::int64_t>::max();
+
+// ---- [skeleton] ------------------------------------------------------------------------------------------------
+const KeyRule<SkeletonRecipe> kSkeletonKeys[] = {
+    {"lsystem", [](const RecipeValue& v, SkeletonRecipe& s) { s.lsystem = v.file(), s.named_at = v.location(); }},
+    {"file",
+     [](const RecipeValue& v, SkeletonRecipe& s) {
+       if (s.lsystem) v.refuse("either lsystem or file, not both");
+       s.file = v.file(), s.named_at = v.location();
+     }},
+    {"graph", [](const RecipeValue& v,
+                 SkeletonRecipe&) { v.refuse("lsystem or file: growing on a graph is not available in this version"); }},
+    {"steps", [](const RecipeValue& v, SkeletonRecipe& s) { s.steps = static_cast<int>(v.integer(0, 1'000'000)); }},
+    {"seed",
+     [](const RecipeValue& v, SkeletonRecipe& s) { s.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
+    {"step", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.step = v.positive_length(); }},
+    {"angle", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.angle = v.degrees(); }},
+    {"width", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.width = v.positive_length(); }},
+    {"tropism", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.tropism = v.direction(); }},
+    {"elasticity", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.elasticity = v.number(-10, 10); }},
+};
+
+// ---- [surface] -------------------------------------------------------------------------------------------------
+const KeyRule<ConditioningOptions> kConditioningKeys[] = {
+    {"enabled", [](const RecipeValue& v, ConditioningOptions& c) { c.enabled = v.flag(); }},
+    {"smooth", [](const RecipeValue& v, ConditioningOptions& c) { c.smooth = v.number(0, 1000); }},
+    {"max_turn",
+     [](const RecipeValue& v, ConditioningOptions& c) { c.max_turn = v.number(0.1, 180) * std::numbers::pi / 180; }},
+    {"min_radius", [](const RecipeValue& v, ConditioningOptions& c) { c.min_radius = v.positive_length(); }},
+};
+
+void read_conditioning(const RecipeValue& v, SurfaceOptions& surface) {
+  if (v.is_flag())
+    surface.conditioning.enabled = v.flag();
+  else if (v.is_text())
+    surface.conditioning.enabled = v.choice({"off", "on"}) == 1;
+  else
+    read_table(v, kConditioningKeys, surface.conditioning);
+}
+
+void read_bend(const RecipeValue& v, SurfaceOptions& surface) {
+  surface.bend.clear();
+  for (const RecipeValue& order : v.elements()) surface.bend.push_back(order.number(-170, 170) * std::numbers::pi / 180);
+}
+
+const KeyRule<SurfaceOptions> kSurfaceKeys[] = {
+    {"profile",
+     [](const RecipeValue& v, SurfaceOptions& s) {
+       s.profile = v.choice({"chain", "galbraith"}) == 0 ? Profile::kChain : Profile::kGalbraith;
+     }},
+    {"ridges", [](const RecipeValue& v, SurfaceOptions& s) { s.ridges = v.flag(); }},
+    {"lip", [](const RecipeValue& v, SurfaceOptions& s) { s.lip = v.number(0, 4); }},
+    {"width", [](const RecipeValue& v, SurfaceOptions& s) { s.width = v.number(1e-6, kIso); }},
+    {"bend", read_bend},
+    {"seed",
+     [](const RecipeValue& v, SurfaceOptions& s) { s.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
+    {"conditioning", read_conditioning},
+};
+
+// ---- [[prune]], [[scar]], [scars] ------------------------------------------------------------------------------
+void read_branch(const RecipeValue& v, BranchSelector& where) {
+  where.branch = static_cast<std::uint32_t>(v.integer(0, std::numeric_limits<std::uint32_t>::max()));
+}
+
+const KeyRule<Prune> kPruneKeys[] = {
+    {"branch", [](const RecipeValue& v, Prune& p) { read_branch(v, p.where); }},
+    {"position", [](const RecipeValue& v, Prune& p) { p.where.position = v.point(); }},
+    {"distance", [](const RecipeValue& v, Prune& p) { p.distance = v.not_negative_length(); }},
+    {"normal", [](const RecipeValue& v, Prune& p) { p.normal = v.direction(); }},
+};
+
+const KeyRule<Scar> kScarKeys[] = {
+    {"branch", [](const RecipeValue& v, Scar& s) { read_branch(v, s.where); }},
+    {"position", [](const RecipeValue& v, Scar& s) { s.where.position = v.point(); }},
+    {"along", [](const RecipeValue& v, Scar& s) { s.along = v.not_negative_length(); }},
+    {"angle", [](const RecipeValue& v, Scar& s) { s.angle = v.degrees(); }},
+    {"radius", [](const RecipeValue& v, Scar& s) { s.radius = v.positive_length(); }},
+    {"depth", [](const RecipeValue& v, Scar& s) { s.depth = v.number(0.01, 10); }},
+};
+
+const KeyRule<RandomScars> kRandomScarsKeys[] = {
+    {"count", [](const RecipeValue& v, RandomScars& s) { s.count = static_cast<int>(v.integer(0, 1'000'000)); }},
+    {"min_radius", [](const RecipeValue& v, RandomScars& s) { s.min_axis_radius = v.not_negative_length(); }},
+};
+
+void require_one_place(const RecipeValue& v, const BranchSelector& where) {
+  if (where.branch.has_value() == where.position.has_value())
+    v.refuse(where.branch ? "either branch or position, not both" : "branch = id or position = [x, y, z] in it");
+}
+
+void read_prunes(const RecipeValue& v, Recipe& recipe) {
+  for (const RecipeValue& element : v.elements()) {
+    Prune prune;
+    read_table(element, kPruneKeys, prune);
+    require_one_place(element, prune.where);
+    recipe.surface.prunes.push_back(prune);
+    recipe.prunes_at.push_back(element.location());
+  }
+}
+
+void read_scars(const RecipeValue& v, Recipe& recipe) {
+  for (const RecipeValue& element : v.elements()) {
+    Scar scar;
+    read_table(element, kScarKeys, scar);
+    require_one_place(element, scar.where);
+    recipe.surface.scars.push_back(scar);
+    recipe.scars_at.push_back(element.location());
+  }
+}
+
+// ---- [bark] ----------------------------------------------------------------------------------------------------
+void read_bark_style(const RecipeValue& v, BarkRecipe& b) {
+  constexpr BarkStyle kStyles[] = {BarkStyle::kRidged, BarkStyle::kPlated, BarkStyle::kSmooth, BarkStyle::kBirch};
+  b.material.style = kStyles[v.choice({"ridged", "plated", "smooth", "birch"})];
+}
+
+const KeyRule<BarkRecipe> kMaterialKeys[] = {
+    {"style", read_bark_style},
+    {"color", [](const RecipeValue& v, BarkRecipe& b) { b.material.color = v.color(); }},
+    {"crack_color", [](const RecipeValue& v, BarkRecipe& b) { b.material.crack_color = v.color(); }},
+    {"scale", [](const RecipeValue& v, BarkRecipe& b) { b.material.scale = v.positive(); }},
+    {"texture", [](const RecipeValue& v, BarkRecipe& b) { b.texture = v.file(), b.texture_named_at = v.location(); }},
+    {"texture_size", [](const RecipeValue& v, BarkRecipe& b) { b.material.texture_size = v.positive_length(); }},
+};
+
+/// [bark] is what every order starts from; each [[bark.order]] changes it for one order, 0 being the trunk.
+void read_bark(const RecipeValue& v, Recipe& recipe) {
+  BarkRecipe common;
+  read_table(v, kMaterialKeys, common, {"order"});
+  recipe.bark.clear();
+  if (const toml::node* orders = v.table().get("order")) {
+    for (const RecipeValue& order : RecipeValue(v.source(), *orders, v.child_path("order")).elements()) {
+      recipe.bark.push_back(common);
+      read_table(order, kMaterialKeys, recipe.bark.back());
+    }
+  }
+  if (recipe.bark.empty()) recipe.bark.push_back(common);
+}
+
+// ---- [render] --------------------------------------------------------------------------------------------------
+void read_frame(const RecipeValue& v, Camera& camera) {
+  const auto corners = v.elements(2);
+  Box frame;
+  frame.extend(corners[0].point());
+  frame.extend(corners[1].point());
+  if (!(glm::length(frame.size()) > 0)) v.refuse("two different corners");
+  camera.frame = frame;
+}
+
+const KeyRule<Camera> kCameraKeys[] = {
+    {"eye", [](const RecipeValue& v, Camera& c) { c.eye = v.point(); }},
+    {"target", [](const RecipeValue& v, Camera& c) { c.target = v.point(); }},
+    {"azimuth", [](const RecipeValue& v, Camera& c) { c.azimuth = v.degrees(); }},
+    {"elevation", [](const RecipeValue& v, Camera& c) { c.elevation = v.number(-89, 89) * std::numbers::pi / 180; }},
+    {"fov", [](const RecipeValue& v, Camera& c) { c.field_of_view = v.number(0.1, 170) * std::numbers::pi / 180; }},
+    {"margin", [](const RecipeValue& v, Camera& c) { c.margin = v.number(0.1, 100); }},
+    {"frame", read_frame},
+};
+
+const KeyRule<Light> kLightKeys[] = {
+    {"sun_azimuth", [](const RecipeValue& v, Light& l) { l.sun_azimuth = v.degrees(); }},
+    {"sun_elevation", [](const RecipeValue& v, Light& l) { l.sun_elevation = v.number(-90, 90) * std::numbers::pi / 180; }},
+    {"sun_size", [](const RecipeValue& v, Light& l) { l.sun_size = v.number(0, 90) * std::numbers::pi / 180; }},
+    {"sun_color", [](const RecipeValue& v, Light& l) { l.sun_color = v.color(); }},
+    {"sky_zenith", [](const RecipeValue& v, Light& l) { l.sky_zenith = v.color(); }},
+    {"sky_horizon", [](const RecipeValue& v, Light& l) { l.sky_horizon = v.color(); }},
+    {"ground_color", [](const RecipeValue& v, Light& l) { l.ground_color = v.color(); }},
+    {"ground", [](const RecipeValue& v, Light& l) { l.ground = v.flag(); }},
+    {"ground_height", [](const RecipeValue& v, Light& l) { l.ground_height = v.length(); }},
+};
+
+void read_image_size(const RecipeValue& v, RenderOptions& r) {
+  if (v.is_array()) {
+    const auto sides = v.elements(2);
+    r.width = static_cast<int>(sides[0].integer(1, 65536));
+    r.height = static_cast<int>(sides[1].integer(1, 65536));
+  } else {
+    if (!v.is_text()) v.refuse("an image size such as \"768x1024\"");
+    std::tie(r.width, r.height) = parse_image_size(v.text(), v.location());
+  }
+}
+
+const KeyRule<RenderOptions> kRenderKeys[] = {
+    {"size", read_image_size},
+    {"samples", [](const RecipeValue& v, RenderOptions& r) { r.samples = static_cast<int>(v.integer(1, 65536)); }},
+    {"exposure", [](const RecipeValue& v, RenderOptions& r) { r.exposure = v.positive(); }},
+    {"seed",
+     [](const RecipeValue& v, RenderOptions& r) { r.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
+    {"background", [](const RecipeValue& v, RenderOptions& r) { r.light.sky_zenith = r.light.sky_horizon = v.color(); }},
+    {"camera", [](const RecipeValue& v, RenderOptions& r) { read_table(v, kCameraKeys, r.camera); }},
+    {"light", [](const RecipeValue& v, RenderOptions& r) { read_table(v, kLightKeys, r.light); }},
+};
+
+// ---- [mesh], [volume] ------------------------------------------------------------------------------------------
+const KeyRule<PolygonizeOptions> kMeshKeys[] = {
+    {"voxel", [](const RecipeValue& v, PolygonizeOptions& m) { m.voxel = v.positive_length(); }},
+    {"tolerance",
+     [](const RecipeValue& v, PolygonizeOptions& m) {
+       if (m.voxel) v.refuse("either voxel or tolerance, not both");
+       m.tolerance = v.positive_length();
+     }},
+    {"max_triangles",
+     [](const RecipeValue& v, PolygonizeOptions& m) {
+       m.max_triangles = static_cast<std::size_t>(v.integer(1, kLargestInteger));
+     }},
+};
+
+const KeyRule<VolumeOptions> kVolumeKeys[] = {
+    {"voxel", [](const RecipeValue& v, VolumeOptions& o) { o.voxel = v.positive_length(); }},
+    {"kind",
+     [](const RecipeValue& v, VolumeOptions& o) {
+       constexpr VolumeKind kKinds[] = {VolumeKind::kSdf, VolumeKind::kField, VolumeKind::kFog};
+       o.kind = kKinds[v.choice({"sdf", "field", "fog"})];
+     }},
+    {"half_width", [](const RecipeValue& v, VolumeOptions& o) { o.half_width = v.number(1, 100); }},
+};
+
+// ---- all of it -------------------------------------------------------------------------------------------------
+const KeyRule<Recipe> kRecipeKeys[] = {
+    {"skeleton", [](const RecipeValue& v, Recipe& r) { read_table(v, kSkeletonKeys, r.skeleton); }},
+    {"surface", [](const RecipeValue& v, Recipe& r) { read_table(v, kSurfaceKeys, r.surface); }},
+    {"prune", read_prunes},
+    {"scar", read_scars},
+    {"scars", [](const RecipeValue& v, Recipe& r) { read_table(v, kRandomScarsKeys, r.surface.random_scars); }},
+    {"bark", read_bark},
+    {"render", [](const RecipeValue& v, Recipe& r) { read_table(v, kRenderKeys, r.render); }},
+    {"mesh", [](const RecipeValue& v, Recipe& r) { read_table(v, kMeshKeys, r.mesh); }},
+    {"volume", [](const RecipeValue& v, Recipe& r) { read_table(v, kVolumeKeys, r.volume); }},
+};
+
+Recipe read_root(toml::table root, RecipeSource source, const std::vector<std::string>& overrides) {
+  for (const std::string& text : overrides) apply_override(text, root, source);
+  Recipe recipe;
+  read_table(RecipeValue(source, root, ""), kRecipeKeys, recipe);
+  return recipe;
+}
+
+}  // namespace
+
+Recipe read_recipe(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const std::string text = read_text(file);
+  toml::table root;
+  try {
+    root = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    const auto& at = error.source().begin;
+    throw InputError({file.string(), static_cast<int>(at.line), static_cast<int>(at.column)},
+                     std::string(error.description()), "TOML");
+  }
+  Recipe recipe = read_root(std::move(root), {file, {}}, overrides);
+  if (!recipe.skeleton.lsystem && !recipe.skeleton.file)
+    throw InputError({file.string()}, "no skeleton", "lsystem = \"...\" or file = \"...\" in [skeleton]");
+  return recipe;
+}
+
+Recipe empty_recipe(const std::filesystem::path& input, const std::vector<std::string>& overrides) {
+  Recipe recipe = read_root({}, {input, {}}, overrides);
+  if (recipe.skeleton.lsystem || recipe.skeleton.file)
+    throw InputError(recipe.skeleton.named_at, "a skeleton source for an input that is one",
+                     "a recipe (.tree.toml) as input");
+  return recipe;
+}
+
+}  // namespace cambium

@@ -1,0 +1,53 @@
+// The recipe (*.tree.toml): everything about one tree in one commented file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "blobtree/input_error.h"
+#include "lsystem/lsystem.h"
+#include "polygonize/polygonize.h"
+#include "polygonize/volume.h"
+#include "raytrace/render.h"
+#include "skeletons/surface.h"
+
+namespace cambium {
+
+/// [skeleton]: where it comes from. Exactly one of lsystem and file is set in a recipe, none for any other input.
+struct SkeletonRecipe {
+  std::optional<std::filesystem::path> lsystem, file;  ///< relative to the working directory
+  SourceLocation named_at;                             ///< where the recipe names it
+  std::optional<int> steps;                            ///< of derivation; unset: the L-system's own
+  std::optional<std::uint64_t> seed;
+  TurtleOptions turtle;
+};
+
+/// [bark] and [[bark.order]]: what one branch order is covered with. The image is loaded only by commands that colour.
+struct BarkRecipe {
+  BarkMaterial material;
+  std::optional<std::filesystem::path> texture;
+  SourceLocation texture_named_at;
+};
+
+struct Recipe {
+  SkeletonRecipe skeleton;
+  SurfaceOptions surface;
+  std::vector<SourceLocation> prunes_at, scars_at;  ///< of surface.prunes and surface.scars
+  std::vector<BarkRecipe> bark;                     ///< by branch order, the last goes on; empty: the built-in
+  RenderOptions render;                             ///< its bark is empty
+  PolygonizeOptions mesh;
+  VolumeOptions volume;
+};
+
+/// Reads `file` with the `--set key=value` texts applied on top, one after the other.
+/// Errors: InputError with line and column for broken TOML, unknown keys, wrong types and values out of range.
+Recipe read_recipe(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+
+/// The recipe of an input that is none: defaults with the overrides applied. Paths in them are relative to the input's
+/// folder.
+Recipe empty_recipe(const std::filesystem::path& input, const std::vector<std::string>& overrides);
+
+}  // namespace cambium

@@ -1,0 +1,22 @@
+// Numbers with units as people type them, on the command line and in recipes.
+#pragma once
+
+#include <string_view>
+#include <utility>
+
+#include "blobtree/input_error.h"
+
+namespace cambium {
+
+/// The whole text as a finite number. Errors: InputError at `at`.
+double parse_number(std::string_view text, const SourceLocation& at);
+
+/// "5mm", "0.4 cm", "2 m" or a bare number (metres), in metres; may be negative. Errors: InputError at `at`.
+double parse_length(std::string_view text, const SourceLocation& at);
+/// The same, greater than zero.
+double parse_positive_length(std::string_view text, const SourceLocation& at);
+
+/// "768x1024": width and height in pixels, each 1 to 65536. Errors: InputError at `at`.
+std::pair<int, int> parse_image_size(std::string_view text, const SourceLocation& at);
+
+}  // namespace cambium
