@@ -134,8 +134,9 @@ class Evaluator {
   void contributions(const PrunedField& field, const Vec3& p, std::vector<Contribution>& out);
   SurfaceTraits surface_traits(const PrunedField& field, const Vec3& p);
 
+  struct Scratch;  ///< private to blobtree/
+
  private:
-  struct Scratch;
   std::unique_ptr<Scratch> scratch_;
 };
 

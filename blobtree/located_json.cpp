@@ -298,6 +298,13 @@ const LocatedJson::Cell& JsonValue::expect(Kind wanted) const {
 
 double JsonValue::number() const { return expect(Kind::Number).number; }
 
+long double JsonValue::extended_number() const {
+  long double value = number();
+  const std::string& text = document_->text_;
+  std::from_chars(text.data() + cell().offset, text.data() + text.size(), value);
+  return value;
+}
+
 std::int64_t JsonValue::integer(std::int64_t lowest, std::int64_t highest) const {
   const double value = number();
   constexpr double kExact = 9007199254740992.0;  // 2^53

@@ -61,6 +61,7 @@ class JsonValue {
   std::string describe() const;
 
   double number() const;
+  long double extended_number() const;                      ///< with the digits beyond double, where there are any
   std::int64_t integer(std::int64_t lowest, std::int64_t highest) const;
   bool boolean() const;
   std::string_view string() const;

@@ -1,0 +1,113 @@
+// Runs the tape of a pruned field over any kind of value: numbers, numbers with gradients, intervals, surface traits.
+// Private to blobtree/. A Policy knows the point (or ball, or lane) and supplies:
+//   Value primitive(const Instruction&), half_space(const Instruction&), chain(const Instruction&),
+//         lateral_weight(const Lateral&, const Instruction&), warp(const Instruction&, const Value&)
+#pragma once
+
+#include "blobtree/compiled_tree.h"
+#include "blobtree/field.h"
+#include "blobtree/operators.h"
+
+#include <vector>
+
+namespace cambium {
+
+template <class N>
+N scaled(const N& f, double factor) {
+  return f * N(static_cast<typename NumberOf<N>::type>(factor));
+}
+
+template <class Value>
+struct TapeScratch {
+  std::vector<Value> stack, weights;
+};
+
+struct TapeView {
+  const CompiledTree& tree;
+  const std::vector<PrunedField::Instruction>& tape;
+  const std::vector<std::uint32_t>& slots;
+  std::uint32_t stack_size;
+};
+
+template <class Value, class Policy>
+Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch) {
+  if (view.tape.empty()) return Value{};
+  if (scratch.stack.size() < view.stack_size) scratch.stack.resize(view.stack_size);
+  Value* const stack = scratch.stack.data();
+  std::size_t top = 0;
+  for (const PrunedField::Instruction& in : view.tape) {
+    const auto op = static_cast<Op>(in.op);
+    if (op == Op::kPrimitive) {
+      stack[top++] = policy.primitive(in);
+      continue;
+    }
+    if (op == Op::kChain) {
+      stack[top++] = policy.chain(in);
+      continue;
+    }
+    if (op == Op::kHalfSpace) {
+      stack[top++] = policy.half_space(in);
+      continue;
+    }
+    top -= in.count;
+    Value* const f = stack + top;
+    const CompiledNode& node = view.tree.nodes[in.node];
+    const std::size_t n = in.count;
+    const bool with_zero = in.with_zero != 0;
+    switch (op) {
+      case Op::kSum: f[0] = sum_of(f, n); break;
+      case Op::kUnion: f[0] = max_of(f, n, with_zero); break;
+      case Op::kIntersection: f[0] = min_of(f, n, with_zero); break;
+      case Op::kRicci: f[0] = ricci_of(f, n, view.tree.numbers[node.payload]); break;
+      case Op::kScale: f[0] = scaled(f[0], view.tree.numbers[node.payload]); break;
+      case Op::kWarp: f[0] = policy.warp(in, f[0]); break;
+      case Op::kDifference: {
+        const bool has_first = view.slots[in.first] == 0;
+        f[0] = difference_of(has_first ? f[0] : Value{}, f + has_first, n - has_first, with_zero);
+        break;
+      }
+      case Op::kContact: {
+        const CompiledBlend& blend = view.tree.blends[node.payload];
+        f[0] = contact_of(f, n, with_zero, blend.width, blend.lip);
+        break;
+      }
+      case Op::kFork: {
+        const CompiledBlend& blend = view.tree.blends[node.payload];
+        const bool has_axis = view.slots[in.first] == 0;
+        scratch.weights.clear();
+        for (std::size_t k = has_axis; k < n; ++k)
+          scratch.weights.push_back(policy.lateral_weight(blend.laterals[view.slots[in.first + k] - 1], in));
+        f[0] = fork_of(has_axis ? f[0] : Value{}, f + has_axis, scratch.weights.data(), n - has_axis, with_zero, blend.width,
+                       blend.lip);
+        break;
+      }
+      case Op::kPrimitive:
+      case Op::kHalfSpace:
+      case Op::kChain: break;
+    }
+    ++top;
+  }
+  return stack[0];
+}
+
+/// Value (and gradient) of f = strength g(x) from a normalised distance x = d * scale.
+template <class N, class T>
+N falloff_of(const Distance<T>& d, T scale, T strength) {
+  const T x = d.value * scale;
+  if constexpr (std::is_floating_point_v<N>) {
+    return strength * falloff(x);
+  } else {
+    return N(strength * falloff(x), (strength * falloff_slope(x) * scale) * d.gradient);
+  }
+}
+
+/// Of a half-space at signed distance s: a ramp of the given width.
+template <class N, class T>
+N half_space_of(T s, const Vec<T>& normal, T width) {
+  const T t = T(0.5) - s / (2 * width);
+  if (!(t > T(0))) return N(0);
+  if (!(t < T(1))) return N(1);
+  return with_gradient<N>(t, normal * (T(-0.5) / width));
+}
+
+}  // namespace cambium
