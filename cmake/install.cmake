@@ -1,0 +1,28 @@
+# What `cmake --install` gives: the program, the libraries with their public headers, and the package for find_package(cambium).
+include(CMakePackageConfigHelpers)
+
+set(public_headers
+  blobtree/blobtree.h blobtree/blobtree_json.h blobtree/field.h blobtree/geometry.h blobtree/input_error.h
+  blobtree/run_options.h
+  skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
+  lsystem/lsystem.h
+  polygonize/mesh.h polygonize/mesh_io.h polygonize/polygonize.h polygonize/volume.h
+  raytrace/bark.h raytrace/film.h raytrace/render.h)
+foreach(header ${public_headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cambium/${folder})
+endforeach()
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cambium)
+foreach(folder blobtree skeletons lsystem polygonize raytrace)
+  if(TARGET cambium_${folder})
+    install(TARGETS cambium_${folder} EXPORT cambium-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+                                                             LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endif()
+endforeach()
+install(EXPORT cambium-targets NAMESPACE cambium:: DESTINATION ${package_dir})
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cambium-config.cmake.in ${PROJECT_BINARY_DIR}/cambium-config.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cambium-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/cambium-config.cmake ${PROJECT_BINARY_DIR}/cambium-config-version.cmake
+        DESTINATION ${package_dir})
