@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds build/ in release mode and runs all tests.
+set -euo pipefail
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+"$top/scripts/build.sh" -DCAMBIUM_TESTS=ON
+ctest --test-dir "$top/build" --output-on-failure -j2
