@@ -1,0 +1,142 @@
+#include "polygonize/volume.h"
+
+#include "blobtree/input_error.h"
+#include "polygonize/lattice.h"
+#include "polygonize/volume_samples.h"
+
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/FastSweeping.h>
+#include <openvdb/tools/LevelSetUtil.h>
+#include <openvdb/tools/Prune.h>
+#include <openvdb/tools/SignedFloodFill.h>
+
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+
+namespace cambium {
+namespace {
+
+using Grid = openvdb::FloatGrid;
+using Leaf = Grid::TreeType::LeafNodeType;
+
+void tell(const RunOptions& run, const char* stage, double fraction) {
+  if (run.progress) run.progress(stage, fraction);
+}
+
+Grid::Ptr field_grid(const std::vector<FieldBlock>& blocks) {
+  Grid::Ptr grid = Grid::create(0.0f);
+  for (const FieldBlock& block : blocks) {
+    const openvdb::Coord first(block.first[0], block.first[1], block.first[2]);
+    Leaf* leaf = nullptr;
+    for (int i = 0; i < 512; ++i) {
+      if (!(block.values[i] > 0)) continue;
+      if (!leaf) leaf = grid->tree().touchLeaf(first);
+      leaf->setValueOn(static_cast<openvdb::Index>(i), block.values[i]);   // both count z fastest
+    }
+  }
+  grid->setName("field");
+  grid->setGridClass(openvdb::GRID_UNKNOWN);
+  return grid;
+}
+
+// Cuts the band to its width: OpenVDB's dilation goes by whole voxels, diagonals included.
+void trim_band(Grid& grid, float width) {
+  openvdb::tree::LeafManager<Grid::TreeType> leaves(grid.tree());
+  leaves.foreach([width](Leaf& leaf, std::size_t) {
+    for (openvdb::Index i = 0; i < Leaf::SIZE; ++i) {
+      const float value = leaf.getValue(i);
+      if (leaf.isValueOn(i) && std::abs(value) < width) continue;
+      leaf.setValueOff(i, std::copysign(width, value));
+    }
+  });
+  grid.tree().root().setBackground(width, false);
+  openvdb::tools::signedFloodFillWithValues(grid.tree(), width, width);
+  openvdb::tools::pruneLevelSet(grid.tree());
+}
+
+Grid::Ptr level_set(const std::vector<NearVoxel>& voxels, double voxel, double half_width, const RunOptions& run) {
+  const float width = static_cast<float>(half_width * voxel);
+  Grid::Ptr grid = Grid::create(width);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  auto accessor = grid->getAccessor();
+  for (const NearVoxel& near : voxels) {
+    accessor.setValueOn(openvdb::Coord(near.index[0], near.index[1], near.index[2]), near.distance);
+  }
+  if (!voxels.empty()) {
+    openvdb::tools::signedFloodFill(grid->tree());   // the sweep reads the signs of inactive neighbours
+    tell(run, "measuring distances", 0.2);
+    if (run.cancelled()) return nullptr;
+    grid = openvdb::tools::sdfToSdf(*grid, 0.0f, 1);
+    if (run.cancelled()) return nullptr;
+    tell(run, "measuring distances", 0.5);
+    grid = openvdb::tools::dilateSdf(*grid, static_cast<int>(std::ceil(half_width)), openvdb::tools::NN_FACE_EDGE_VERTEX, 1);
+    if (run.cancelled()) return nullptr;
+    trim_band(*grid, width);
+  }
+  tell(run, "measuring distances", 1.0);
+  grid->setName("surface");
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  return grid;
+}
+
+Grid::Ptr make_grid(const Field& field, const VolumeOptions& options, const RunOptions& run) {
+  if (options.kind == VolumeKind::kField) {
+    const auto blocks = sample_field(field, options.voxel, run);
+    return blocks ? field_grid(*blocks) : nullptr;
+  }
+  const auto voxels = sample_near_surface(field, options.voxel, run);
+  if (!voxels) return nullptr;
+  Grid::Ptr grid = level_set(*voxels, options.voxel, options.half_width, run);
+  if (!grid || options.kind == VolumeKind::kSdf) return grid;
+  openvdb::tools::sdfToFogVolume(*grid);
+  grid->setName("density");
+  return grid;
+}
+
+void write_grid(Grid::Ptr grid, const std::filesystem::path& path) {
+  openvdb::io::File file(path.string());
+  file.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK | openvdb::io::COMPRESS_BLOSC);
+  file.write(openvdb::GridPtrVec{grid});
+  file.close();
+}
+
+}  // namespace
+
+std::optional<VolumeReport> write_volume(const Field& field, const VolumeOptions& options, const std::filesystem::path& path,
+                                         const RunOptions& run) {
+  require_length(options.voxel, "voxel");
+  if (!(options.half_width >= 1 && options.half_width <= 100)) {
+    throw InputError({}, "a half width of " + std::to_string(options.half_width) + " voxels", "1 to 100 voxels");
+  }
+  static std::once_flag initialized;
+  std::call_once(initialized, [] { openvdb::initialize(); });
+  std::optional<tbb::global_control> threads;   // OpenVDB's own loops
+  if (run.threads > 0) threads.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(run.threads));
+
+  const Grid::Ptr grid = make_grid(field, options, run);
+  if (!grid || run.cancelled()) return std::nullopt;
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(options.voxel));
+  grid->setSaveFloatAsHalf(false);
+  grid->setCreator("Cambium");
+  VolumeReport report{grid->activeVoxelCount(), options.voxel};
+  std::error_code ignored;
+  try {
+    tell(run, "writing", 0);
+    write_grid(grid, path);
+  } catch (const std::exception& error) {
+    std::filesystem::remove(path, ignored);
+    throw std::runtime_error(path.string() + ": cannot write the volume: " + error.what());
+  }
+  if (run.cancelled()) {
+    std::filesystem::remove(path, ignored);
+    return std::nullopt;
+  }
+  tell(run, "writing", 1);
+  return report;
+}
+
+}  // namespace cambium
