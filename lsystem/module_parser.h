@@ -1,0 +1,39 @@
+// Modules, successors and productions of an L-system, from text.
+#pragma once
+
+#include "lsystem/expression_compiler.h"
+#include "lsystem/program.h"
+
+#include <optional>
+#include <string>
+
+namespace cambium {
+
+/// Whether a word that begins a line is a keyword of the language, whatever its case: then no successor runs on past it.
+bool is_keyword(const std::string& word);
+std::string lower_case(std::string word);
+
+class ModuleParser {
+ public:
+  ModuleParser(Cursor& cursor, LSystemProgram& program, Scope& globals)
+      : cursor_(cursor), program_(program), globals_(globals) {}
+
+  /// The symbol at the head: one character, or `@X`, `@Gs`, `@Td`, `?P`, `~x`. nullopt where none can stand.
+  std::optional<std::string> symbol();
+  Successor successor(Scope& scope);
+  Production production();
+
+ private:
+  bool line_continues();
+  void modules(Successor& out, Scope& scope);
+  struct FormalModule;
+  FormalModule formal(Scope& scope);
+  ContextModule context_module(const FormalModule& from) const;
+  std::uint16_t number(const std::string& name, std::size_t at);
+
+  Cursor& cursor_;
+  LSystemProgram& program_;
+  Scope& globals_;
+};
+
+}  // namespace cambium

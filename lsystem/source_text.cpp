@@ -1,0 +1,63 @@
+#include "lsystem/source_text.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace cambium {
+
+bool Cursor::accept(char c) {
+  skip_space();
+  if (at_end() || peek() != c) return false;
+  advance();
+  return true;
+}
+
+void Cursor::expect(char c, std::string_view where) {
+  if (!accept(c)) fail(std::string("'") + c + "' " + std::string(where));
+}
+
+void Cursor::skip_space() {
+  while (!at_end()) {
+    const char c = peek();
+    if (c != ' ' && c != '\t' && c != '\r' && !(c == '\n' && lines_are_space_)) return;
+    advance();
+  }
+}
+
+void Cursor::skip_blank_lines() {
+  const LineEnds all(*this, true);
+  skip_space();
+}
+
+std::string Cursor::word() {
+  if (at_end() || !starts_word(peek())) return {};
+  const std::size_t begin = position_;
+  while (!at_end() && in_word(peek())) advance();
+  return source_.text.substr(begin, position_ - begin);
+}
+
+std::string Cursor::describe(std::size_t position) const {
+  const std::string& text = source_.text;
+  if (position >= text.size()) return "the end of the file";
+  const char c = text[position];
+  if (c == '\n') return "the end of the line";
+  if (text.compare(position, 3, "-->") == 0) return "'-->'";
+  const auto byte = static_cast<unsigned char>(c);
+  if (byte < 0x20 || byte >= 0x7f) {
+    char code[16];
+    std::snprintf(code, sizeof code, "byte 0x%02x", byte);
+    return code;
+  }
+  std::size_t end = position;
+  while (end < text.size() && end - position < 40 && in_word(text[end])) ++end;
+  std::string quoted(1, '\'');
+  quoted.append(text, position, end > position ? end - position : 1);
+  quoted += '\'';
+  return quoted;
+}
+
+void Cursor::fail_at(std::size_t position, std::string found, std::string expected) const {
+  throw InputError(located(source_.files, source_.place(position)), std::move(found), std::move(expected));
+}
+
+}  // namespace cambium
