@@ -1,0 +1,259 @@
+#include "polygonize/polygonize.h"
+
+#include "blobtree/input_error.h"
+#include "tests/polygonize/mesh_checks.h"
+#include "tests/polygonize/sample_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <numbers>
+#include <thread>
+
+namespace cambium {
+namespace {
+
+using testing::check_mesh;
+using testing::MeshChecks;
+
+Polygonized mesh_of(const Field& field, double voxel, int threads = 0) {
+  PolygonizeOptions options;
+  options.voxel = voxel;
+  RunOptions run;
+  run.threads = threads;
+  auto result = polygonize(field, options, run);
+  EXPECT_TRUE(result.has_value());
+  return result ? *std::move(result) : Polygonized{};
+}
+
+// Closed, outward, no degenerate triangle, and every vertex within half a cell, by the field in double.
+MeshChecks expect_sound(const Field& field, const Polygonized& made) {
+  const MeshChecks checks = check_mesh(made.mesh);
+  EXPECT_TRUE(checks.closed_manifold()) << checks;
+  EXPECT_EQ(checks.degenerate_triangles, 0u) << checks;
+  EXPECT_EQ(checks.components, made.report.components);
+  EXPECT_EQ(made.mesh.normals.size(), made.mesh.positions.size());
+  EXPECT_LE(made.report.largest_distance, 0.5 * made.report.voxel);
+  for (std::size_t i = 0; i < made.mesh.positions.size(); ++i) {
+    const Sample sample = field.sample(made.mesh.positions[i]);
+    const double slope = glm::length(sample.gradient);
+    if (slope > 0) {
+      EXPECT_LE(std::abs(sample.value - kIso) / slope, 0.5 * made.report.voxel + 1e-9) << "vertex " << i;
+    }
+    EXPECT_NEAR(glm::length(made.mesh.normals[i]), 1, 1e-4);
+  }
+  return checks;
+}
+
+TEST(Polygonize, ASphereIsRoundClosedAndOutward) {
+  const Field field = testing::sphere_field();
+  const Polygonized made = mesh_of(field, 0.1);
+  const MeshChecks checks = expect_sound(field, made);
+  EXPECT_EQ(checks.euler, 2);
+  EXPECT_EQ(checks.components, 1u);
+  EXPECT_EQ(checks.inward_components, 0u);
+  for (std::size_t i = 0; i < made.mesh.positions.size(); ++i) {
+    const Vec3 from_center = made.mesh.positions[i] - Vec3(0.03, -0.02, 0.01);
+    EXPECT_NEAR(glm::length(from_center), 1, 0.002);
+    EXPECT_GT(glm::dot(glm::normalize(from_center), Vec3(made.mesh.normals[i])), 0.999);
+  }
+}
+
+TEST(Polygonize, ATorusHasEulerNumberZero) {
+  const Field field = testing::torus_field();
+  const MeshChecks checks = expect_sound(field, mesh_of(field, 0.07));
+  EXPECT_EQ(checks.euler, 0);
+  EXPECT_EQ(checks.components, 1u);
+}
+
+TEST(Polygonize, ChainForkAndContactAreOnePieceEach) {
+  for (const Field& field : {testing::chain_field(), testing::fork_field(), testing::contact_field()}) {
+    for (const double voxel : {0.09, 0.04}) {
+      const MeshChecks checks = expect_sound(field, mesh_of(field, voxel));
+      EXPECT_EQ(checks.euler, 2) << checks;
+      EXPECT_EQ(checks.components, 1u);
+      EXPECT_EQ(checks.inward_components, 0u);
+    }
+  }
+}
+
+TEST(Polygonize, RandomBlobTreesAreManifoldAtAnyCellSize) {
+  for (unsigned seed = 1; seed <= 16; ++seed) {
+    SCOPED_TRACE(seed);
+    const Field field = testing::random_field(seed);
+    for (const double voxel : {0.31, 0.13, 0.07}) expect_sound(field, mesh_of(field, voxel));
+  }
+}
+
+TEST(Polygonize, TwigsThinnerThanACellBreakButStayClosed) {
+  const Field field = testing::field_of(Chain{{{Vec3(0, 0, 0), 0.02}, {Vec3(0.7, 1.1, 2.3), 0.01}}, 1});
+  const Polygonized made = mesh_of(field, 0.035);
+  expect_sound(field, made);
+  EXPECT_EQ(made.report.thin_primitives, 1u);
+  EXPECT_NEAR(made.report.thinnest_radius, 0.01, 1e-12);
+  EXPECT_GT(made.report.thin_length, 2);
+  EXPECT_GT(made.report.components, 1u);
+}
+
+TEST(Polygonize, VolumeConvergesWithTheSquareOfTheCell) {
+  const Field field = testing::sphere_field();
+  const double exact = 4.0 / 3 * std::numbers::pi;
+  double last = 1e9;
+  for (const double voxel : {0.2, 0.1, 0.05}) {
+    const double error = std::abs(check_mesh(mesh_of(field, voxel).mesh).volume - exact);
+    EXPECT_LT(error, 0.35 * last) << voxel;
+    last = error;
+  }
+  EXPECT_LT(last, 2e-3 * exact);
+}
+
+TEST(Polygonize, ACutHasASharpEdgeAndAFlatFace) {
+  const Field field = testing::cut_box_field();
+  const double voxel = 0.07;
+  const Polygonized made = mesh_of(field, voxel);
+  EXPECT_EQ(expect_sound(field, made).euler, 2);
+  // Where the plane x + y = 1 meets the top z = 1.1, away from the box's rounded sides: cells along this edge must have their
+  // vertex on the edge itself.
+  int on_edge = 0, on_face = 0;
+  for (const Vec3& p : made.mesh.positions) {
+    const double from_plane = (p.x + p.y - 1) / std::sqrt(2.0);
+    if (std::abs(from_plane) > 0.5 * voxel || std::abs(p.x - p.y) > 1.2) continue;
+    if (std::abs(p.z) < 0.9) {
+      EXPECT_NEAR(from_plane, 0, 1e-3 * voxel);
+      ++on_face;
+    }
+    if (std::abs(p.z - 1.1) < 0.02 * voxel && std::abs(from_plane) < 0.02 * voxel) ++on_edge;
+  }
+  EXPECT_GT(on_face, 100);
+  EXPECT_GT(on_edge, 1.2 * std::sqrt(2.0) / 2 / voxel);
+}
+
+TEST(Polygonize, SameBytesForAnyNumberOfThreads) {
+  const Field field = testing::random_field(5);
+  const Polygonized one = mesh_of(field, 0.03, 1);
+  for (const int threads : {2, 4}) {
+    const Polygonized other = mesh_of(field, 0.03, threads);
+    EXPECT_EQ(one.mesh.positions, other.mesh.positions);
+    EXPECT_EQ(one.mesh.normals, other.mesh.normals);
+    EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+  }
+}
+
+TEST(Polygonize, AThinTwigFarFromTheOriginKeepsItsShape) {
+  const Vec3 far(31.3, -27.1, 30.2);
+  const Field field = testing::field_of(Capsule{far, far + Vec3(0.01, 0.004, 0.02), 0.001, 1});
+  const Polygonized made = mesh_of(field, 0.0005);
+  const MeshChecks checks = expect_sound(field, made);
+  EXPECT_EQ(checks.euler, 2);
+  const double length = glm::length(Vec3(0.01, 0.004, 0.02));
+  const double exact = std::numbers::pi * 1e-6 * length + 4.0 / 3 * std::numbers::pi * 1e-9;
+  double volume = 0;   // about its own place: 30 m away the plain sum of the checks loses digits
+  for (const auto& t : made.mesh.triangles) {
+    const auto at = [&](int i) { return made.mesh.positions[t[i]] - far; };
+    volume += glm::dot(at(0), glm::cross(at(1), at(2))) / 6;
+  }
+  EXPECT_NEAR(volume / exact, 1, 0.05);
+}
+
+TEST(Polygonize, TheDefaultCellResolvesTheThinnestTwig) {
+  const Field field = testing::chain_field();
+  const auto made = polygonize(field, {}, {});
+  ASSERT_TRUE(made.has_value());
+  EXPECT_NEAR(made->report.voxel, 0.7 * 0.05, 1e-9);
+  EXPECT_EQ(made->report.thin_primitives, 0u);
+  EXPECT_EQ(check_mesh(made->mesh).components, 1u);
+}
+
+TEST(Polygonize, ToleranceIsHalfACellAndALimitCoarsens) {
+  const Field field = testing::chain_field();
+  PolygonizeOptions options;
+  options.tolerance = 0.01;
+  auto made = polygonize(field, options, {});
+  ASSERT_TRUE(made.has_value());
+  EXPECT_EQ(made->report.voxel, 0.02);
+  const std::size_t fine = made->mesh.triangles.size();
+  for (const std::size_t limit : {fine, fine / 3, std::size_t{500}, std::size_t{1}}) {
+    options.max_triangles = limit;
+    made = polygonize(field, options, {});
+    ASSERT_TRUE(made.has_value());
+    EXPECT_LE(made->mesh.triangles.size(), limit);
+    if (limit >= 500) {
+      EXPECT_GT(made->mesh.triangles.size(), limit / 3);
+    }
+    EXPECT_TRUE(check_mesh(made->mesh).closed_manifold());
+  }
+}
+
+TEST(Polygonize, ColoursComeFromTheCallback) {
+  PolygonizeOptions options;
+  options.voxel = 0.2;
+  options.color = [](Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal) {
+    const double value = evaluator.value(field, p);
+    EXPECT_NEAR(value, kIso, 0.05);
+    EXPECT_NEAR(glm::length(normal), 1, 1e-4);
+    return std::array<std::uint8_t, 4>{p.z > 0 ? std::uint8_t(200) : std::uint8_t(10), 1, 2, 255};
+  };
+  const auto made = polygonize(testing::sphere_field(), options, {});
+  ASSERT_TRUE(made.has_value());
+  ASSERT_EQ(made->mesh.colors.size(), made->mesh.positions.size());
+  for (std::size_t i = 0; i < made->mesh.colors.size(); ++i) {
+    EXPECT_EQ(made->mesh.colors[i][0], made->mesh.positions[i].z > 0 ? 200 : 10);
+  }
+}
+
+TEST(Polygonize, BadLengthsAndGridsTooFineAreInputErrors) {
+  const Field field = testing::sphere_field();
+  PolygonizeOptions options;
+  for (const double bad : {0.0, -1.0, std::nan(""), kInfinity, 1e-9}) {
+    options.voxel = bad;
+    EXPECT_THROW(polygonize(field, options, {}), InputError) << bad;
+  }
+  options.voxel.reset();
+  options.tolerance = -0.1;
+  EXPECT_THROW(polygonize(field, options, {}), InputError);
+  options.tolerance.reset();
+  options.max_triangles = 0;
+  EXPECT_THROW(polygonize(field, options, {}), InputError);
+}
+
+TEST(Polygonize, CancellingGivesNothingAndSoon) {
+  const Field field = testing::random_field(3);
+  PolygonizeOptions options;
+  options.voxel = 0.002;
+  std::atomic<bool> cancel{false};
+  RunOptions run;
+  run.cancel = &cancel;
+  std::chrono::steady_clock::time_point asked;
+  std::thread waiter([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    asked = std::chrono::steady_clock::now();
+    cancel = true;
+  });
+  const auto made = polygonize(field, options, run);
+  const auto waited = std::chrono::steady_clock::now();
+  waiter.join();
+  EXPECT_FALSE(made.has_value());
+  EXPECT_LT(waited - asked, std::chrono::seconds(2));   // a hundredth of it as a rule; machines under load vary
+}
+
+TEST(Polygonize, ProgressRisesToOneInEveryStage) {
+  PolygonizeOptions options;
+  options.voxel = 0.05;
+  RunOptions run;
+  std::vector<std::pair<std::string, double>> told;
+  run.progress = [&](std::string_view stage, double fraction) { told.emplace_back(stage, fraction); };
+  ASSERT_TRUE(polygonize(testing::chain_field(), options, run).has_value());
+  ASSERT_GT(told.size(), 4u);
+  for (std::size_t i = 1; i < told.size(); ++i) {
+    if (told[i].first == told[i - 1].first) {
+      EXPECT_GE(told[i].second, told[i - 1].second);
+    } else {
+      EXPECT_EQ(told[i - 1].second, 1);
+    }
+  }
+  EXPECT_EQ(told.back().second, 1);
+}
+
+}  // namespace
+}  // namespace cambium
