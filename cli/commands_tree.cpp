@@ -69,7 +69,7 @@ Outcome run_surface(Job& job) {
   const auto built = build_tree(job);
   if (!built) return Outcome::kInterrupted;
   const StageTimer timer(job.figures, "write");
-  write_blobtree(built->tree, output.temporary());
+  write_text(output.temporary(), to_json(built->tree));
   job.figures.set("nodes", built->tree.size());
   if (built->report) job.figures.set("internodes", built->report->internodes);
   if (job.run.cancelled()) return Outcome::kInterrupted;

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds build/ in release mode and makes the poplar: out/poplar.png, out/poplar.glb, out/poplar.vdb.
+# Installs what is missing, builds the program in release mode in build/ and makes the poplar: out/poplar.png, out/poplar.glb, out/poplar.vdb.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-"$top/scripts/build.sh" -DCAMBIUM_TESTS=OFF
+"$top/scripts/build.sh" --target cambium
 recipe=$top/examples/poplar.tree.toml
 mkdir -p "$top/out"
 

@@ -3,5 +3,5 @@
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-"$top/scripts/build.sh" -DCAMBIUM_TESTS=ON
+"$top/scripts/build.sh"
 ctest --test-dir "$top/build" --output-on-failure -j2
