@@ -119,8 +119,31 @@ AxisTree decompose_axes(const Skeleton& skeleton, std::size_t* merged) {
     }
     tree.axes.push_back(std::move(axis));
   }
+  tree.branch_count = static_cast<std::uint32_t>(tree.axes.size());
   if (merged) *merged += merged_here;
   return tree;
+}
+
+void remove_axes(AxisTree& tree, std::vector<bool> marked) {
+  std::vector<std::int32_t> place(tree.axes.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < tree.axes.size(); ++i) {
+    const std::int32_t parent = tree.axes[i].parent;
+    if (parent >= 0 && marked[parent]) marked[i] = true;
+    if (marked[i]) continue;
+    place[i] = static_cast<std::int32_t>(kept);
+    if (parent >= 0) tree.axes[i].parent = place[parent];
+    if (kept != i) tree.axes[kept] = std::move(tree.axes[i]);
+    ++kept;
+  }
+  tree.axes.resize(kept);
+}
+
+std::vector<std::vector<std::uint32_t>> laterals_of(const AxisTree& tree) {
+  std::vector<std::vector<std::uint32_t>> laterals(tree.axes.size());
+  for (std::size_t i = 0; i < tree.axes.size(); ++i)
+    if (tree.axes[i].parent >= 0) laterals[tree.axes[i].parent].push_back(static_cast<std::uint32_t>(i));
+  return laterals;
 }
 
 Vec3 position_at(const Axis& axis, const AxisPlace& place) {

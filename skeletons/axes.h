@@ -39,7 +39,14 @@ struct Axis {
 /// Axes in an order in which parents stand first. Breadth first as made by decompose_axes, so ids are low on thick wood.
 struct AxisTree {
   std::vector<Axis> axes;
+  std::uint32_t branch_count = 0;          ///< ids given out; some of them may have been removed since
 };
+
+/// Takes away the marked axes and all that they bear; ids stay.
+void remove_axes(AxisTree& tree, std::vector<bool> marked);
+
+/// For every axis the indices of the axes that it bears, ascending.
+std::vector<std::vector<std::uint32_t>> laterals_of(const AxisTree& tree);
 
 /// The child that continues an axis is the unbracketed one (`lateral` false), else the thickest, else the straightest, else
 /// the first. Nodes that are not finite take their parent's place; coincident neighbours are merged (their number is
