@@ -28,18 +28,36 @@ struct BarkMaterial {
 /// Errors: InputError naming the file if it cannot be read as an image.
 std::shared_ptr<const TextureImage> load_texture(const std::filesystem::path& path);
 
-/// Linear albedo at a surface point: sum f_i color_i / sum f_i over contributing primitives, then wood on cut faces, darker
-/// bark on ridges and grey in scars. Thread safe.
+/// Bark at one surface point.
+struct BarkLook {
+  Vec3 albedo{0.0};    ///< linear
+  double height = 1;   ///< 1 on an outer plate, 0 in a crack
+  double relief = 0;   ///< height in metres: height times how deep this bark's cracks are
+};
+
+/// What covers a surface point, blended over contributing primitives: sum f_i a_i / sum f_i, then wood on cut faces, darker bark
+/// on ridges and grey in scars. Thread safe. footprint: metres on the surface that one pixel covers; finer detail fades out.
 class Bark {
  public:
   explicit Bark(std::vector<BarkMaterial> by_order, std::uint64_t seed = 0);  ///< empty: the built-in poplar
-  Vec3 albedo(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal) const;
-  /// Height in [0,1] of the bark at the point, for a shading normal; 1 outside, 0 in a crack.
-  double height(Evaluator& evaluator, const PrunedField& field, const Vec3& p) const;
+  BarkLook look(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint = 0) const;
+  Vec3 albedo(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint = 0) const {
+    return look(evaluator, field, p, normal, footprint).albedo;
+  }
+  /// Height in [0,1] of the bark at the point; 1 outside, 0 in a crack.
+  double height(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint = 0) const;
+  /// The normal that the bark's relief gives the surface (unit), by differences of the relief in the tangent plane.
+  Vec3 shading_normal(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint) const;
 
  private:
+  const BarkMaterial& material(std::uint32_t order) const;
+  BarkLook relief_at(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const;
+
   std::vector<BarkMaterial> by_order_;
   std::uint64_t seed_ = 0;
 };
+
+/// Grey-brown fissured trunk, olive-grey branches with lenticels, red-brown twigs.
+std::vector<BarkMaterial> poplar_bark();
 
 }  // namespace cambium

@@ -1,0 +1,26 @@
+// Well-spread sample points per pixel: Owen-scrambled Sobol pairs, a pure function of (seed, pixel, sample, use).
+#pragma once
+
+#include "raytrace/hash.h"
+
+#include <array>
+#include <cstdint>
+
+namespace cambium {
+
+/// What a pair of numbers is for; each use has its own scramble.
+enum class Use : std::uint32_t { kPixel, kSun, kSky };
+
+class PixelSampler {
+ public:
+  PixelSampler(std::uint64_t seed, int x, int y)
+      : base_(hash_of(seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))) {}
+
+  /// The sample-th pair in [0, 1)^2. Any aligned power of two of samples is stratified in both dimensions (a (0,2)-net).
+  std::array<double, 2> pair(std::uint32_t sample, Use use) const;
+
+ private:
+  std::uint64_t base_;
+};
+
+}  // namespace cambium

@@ -1,0 +1,17 @@
+// From linear light to what a screen shows.
+#pragma once
+
+#include "blobtree/geometry.h"
+
+namespace cambium {
+
+/// sRGB transfer function (IEC 61966-2-1) and its inverse, one channel, [0, 1].
+double srgb_from_linear(double linear);
+double linear_from_srgb(double srgb);
+
+/// Filmic curve (a rational with toe and shoulder), then sRGB: linear radiance >= 0 to [0, 1].
+Vec3 display_from_linear(const Vec3& radiance);
+
+inline double luminance(const Vec3& linear) { return glm::dot(linear, Vec3(0.2126, 0.7152, 0.0722)); }
+
+}  // namespace cambium
