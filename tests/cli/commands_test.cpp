@@ -1,0 +1,205 @@
+// Every command of the real program on tiny inputs.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+#include "temporary_folder.h"
+#include "tiny_inputs.h"
+
+namespace cambium {
+namespace {
+
+using Json = nlohmann::json;
+
+class Commands : public ::testing::Test {
+ protected:
+  Commands() {
+    folder_.write("tiny.l", kTinyLSystem);
+    folder_.write("tiny.tree.toml", kTinyRecipe);
+    folder_.write("tiny.skel.json", kTinySkeleton);
+    folder_.write("tiny.swc", kTinySwc);
+    folder_.write("tiny.csv", kTinyCsv);
+    folder_.write("tiny.blob.json", kTinyBlobTree);
+  }
+
+  std::string at(const std::string& name) const { return folder_.path(name); }
+
+  /// Runs with --json and gives the figures.
+  Json figures(std::vector<std::string> arguments) const {
+    arguments.push_back("--json");
+    const Ran ran = run_program(arguments);
+    EXPECT_EQ(ran.status, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    return ran.status == 0 ? Json::parse(ran.out) : Json();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Commands, DeriveCountsModulesAndLengths) {
+  const Json json = figures({"derive", at("tiny.l"), "-o", at("string.txt")});
+  EXPECT_EQ(json["command"], "derive");
+  EXPECT_EQ(json["symbols"], (Json{{"!", 3}, {"+", 2}, {"A", 1}, {"F", 4}, {"[", 2}, {"]", 2}}));
+  EXPECT_EQ(json["modules"], 14);
+  EXPECT_DOUBLE_EQ(json["total_length"].get<double>(), 3.2);
+  EXPECT_DOUBLE_EQ(json["last_width"].get<double>(), 0.1);
+  EXPECT_TRUE(json["seconds"].contains("derive"));
+  EXPECT_GT(json["peak_memory_bytes"].get<double>(), 0);
+  EXPECT_EQ(folder_.read("string.txt"), "!(0.2)F(1)[+(50)!(0.1)F(0.6)]F(1)[+(50)!(0.1)F(0.6)]A\n");
+}
+
+TEST_F(Commands, DerivePrintsTheStringWithoutOutput) {
+  const Ran ran = run_program({"derive", at("tiny.l"), "--set", "skeleton.steps=0"});
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_EQ(ran.out, "!(0.2)A\n");
+  EXPECT_EQ(ran.err, "");
+}
+
+TEST_F(Commands, GrowWritesASkeletonThatReadsBack) {
+  for (const char* input : {"tiny.l", "tiny.tree.toml", "tiny.skel.json", "tiny.swc", "tiny.csv"})
+    for (const char* output : {"grown.skel.json", "grown.swc"}) {
+      SCOPED_TRACE(std::string(input) + " to " + output);
+      const Json first = figures({"grow", at(input), "-o", at(output)});
+      EXPECT_GE(first["nodes"].get<int>(), 4);
+      EXPECT_EQ(figures({"grow", at(output), "-o", at("again.skel.json")})["nodes"], first["nodes"]);
+    }
+}
+
+TEST_F(Commands, SurfaceWritesABlobTreeOfTheSameField) {
+  folder_.write("p.csv", "x,y,z\n0,0,1.1\n0.1,0,1.2\n0.3,0.02,1.4\n9,9,9\n");
+  figures({"surface", at("tiny.tree.toml"), "-o", at("built.blob.json")});
+  const Json json = figures({"eval", at("tiny.tree.toml"), "--points", at("p.csv"), "-o", at("recipe.csv")});
+  EXPECT_EQ(json["points"], 4);
+  figures({"eval", at("built.blob.json"), "--points", at("p.csv"), "-o", at("blob.csv")});
+  EXPECT_EQ(folder_.read("recipe.csv"), folder_.read("blob.csv"));
+  EXPECT_EQ(folder_.read("blob.csv").substr(0, 17), "x,y,z,f,gx,gy,gz\n");
+  EXPECT_NE(folder_.read("blob.csv").find("\n9,9,9,0,"), std::string::npos);
+}
+
+TEST_F(Commands, EvalGivesTheFieldOfASphereInNineDigits) {
+  folder_.write("p.csv", "0,0,1\n0.5,0,1\n");
+  figures({"eval", at("tiny.blob.json"), "--points", at("p.csv"), "-o", at("f.csv")});
+  std::istringstream rows(folder_.read("f.csv"));
+  std::string header, center, surface;
+  std::getline(rows, header), std::getline(rows, center), std::getline(rows, surface);
+  EXPECT_EQ(center.substr(0, 8), "0,0,1,1,");
+  EXPECT_EQ(surface.substr(0, 10), "0.5,0,1,0.");
+  EXPECT_NEAR(std::stod(surface.substr(8)), 0.5, 1e-9);
+}
+
+TEST_F(Commands, MeshWritesEveryFormatFromEveryInput) {
+  for (const char* output : {"a.obj", "a.ply", "a.stl", "a.off", "a.glb"}) {
+    SCOPED_TRACE(output);
+    const Json json = figures({"mesh", at("tiny.tree.toml"), "-o", at(output)});
+    EXPECT_GT(json["triangles"].get<int>(), 100);
+    EXPECT_EQ(json["components"], 1);
+    EXPECT_DOUBLE_EQ(json["voxel"].get<double>(), 0.04);
+    EXPECT_GT(folder_.read(output).size(), 1000u);
+  }
+  for (const char* input : {"tiny.l", "tiny.skel.json", "tiny.swc", "tiny.csv", "tiny.blob.json"}) {
+    SCOPED_TRACE(input);
+    EXPECT_GT(figures({"mesh", at(input), "-o", at("b.ply"), "--voxel", "4cm"})["triangles"].get<int>(), 100);
+  }
+}
+
+TEST_F(Commands, ToleranceIsHalfACellAndOverridesTheRecipe) {
+  EXPECT_DOUBLE_EQ(figures({"mesh", at("tiny.tree.toml"), "-o", at("a.obj"), "--tolerance", "3cm"})["voxel"].get<double>(),
+                   0.06);
+  EXPECT_DOUBLE_EQ(
+      figures({"mesh", at("tiny.tree.toml"), "-o", at("a.obj"), "--set", "mesh.voxel=5cm"})["voxel"].get<double>(), 0.05);
+}
+
+TEST_F(Commands, UpTurnsTheMesh) {
+  figures({"mesh", at("tiny.blob.json"), "-o", at("z.off"), "--voxel", "20cm"});
+  figures({"mesh", at("tiny.blob.json"), "-o", at("y.off"), "--voxel", "20cm", "--up", "y"});
+  EXPECT_NE(folder_.read("z.off"), folder_.read("y.off"));
+}
+
+TEST_F(Commands, VolumeWritesEveryKind) {
+  for (const char* kind : {"sdf", "field", "fog"}) {
+    SCOPED_TRACE(kind);
+    const Json json = figures({"volume", at("tiny.tree.toml"), "-o", at("a.vdb"), "--kind", kind});
+    EXPECT_GT(json["active_voxels"].get<int>(), 100);
+    EXPECT_GT(folder_.read("a.vdb").size(), 1000u);
+  }
+}
+
+TEST_F(Commands, RenderWritesImagesAndAovs) {
+  const Json json = figures({"render", at("tiny.tree.toml"), "-o", at("a.png"), "--aov", "depth,normal"});
+  EXPECT_EQ(json["width"], 24);
+  EXPECT_EQ(json["height"], 32);
+  for (const char* name : {"a.png", "a.depth.png", "a.normal.png"})
+    EXPECT_EQ(folder_.read(name).substr(1, 3), "PNG") << name;
+  figures({"render", at("tiny.tree.toml"), "-o", at("a.exr"), "--size", "8x8", "--samples", "2", "--aov", "branch"});
+  EXPECT_EQ(folder_.read("a.exr").substr(0, 4), "\x76\x2f\x31\x01");
+  EXPECT_FALSE(folder_.has("a.branch.exr"));
+}
+
+TEST_F(Commands, InfoListsBranchesAndBounds) {
+  const Json json = figures({"info", at("tiny.skel.json")});
+  EXPECT_EQ(json["axes"], 2);
+  ASSERT_EQ(json["branches"].size(), 2u);
+  EXPECT_EQ(json["branches"][0]["branch"], 0);
+  EXPECT_EQ(json["branches"][0]["order"], 0);
+  EXPECT_EQ(json["branches"][1]["order"], 1);
+  EXPECT_GT(json["bounds"]["hi"][2].get<double>(), 2);
+  EXPECT_TRUE(json["conditioning"].contains("radii_clamped"));
+  EXPECT_EQ(figures({"info", at("tiny.blob.json")})["primitives"], 1);
+}
+
+TEST_F(Commands, QuietPrintsNothing) {
+  const Ran ran = run_program({"mesh", at("tiny.blob.json"), "-o", at("a.obj"), "--voxel", "20cm", "--quiet"});
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_EQ(ran.out + ran.err, "");
+}
+
+TEST_F(Commands, SetPrunesABranchByItsIndex) {
+  const Json whole = figures({"mesh", at("tiny.skel.json"), "-o", at("a.off"), "--voxel", "2cm"});
+  const Json cut = figures({"mesh", at("tiny.skel.json"), "-o", at("b.off"), "--voxel", "2cm", "--set", "prune.0.branch=1",
+                            "--set", "prune.0.distance=10cm"});
+  EXPECT_LT(cut["triangles"].get<int>(), whole["triangles"].get<int>());
+}
+
+TEST_F(Commands, OutputIsTheSameForOneThreadAndTwo) {
+  folder_.write("p.csv", "0,0,1.1\n0.1,0,1.2\n");
+  const std::map<std::string, std::vector<std::string>> commands = {
+      {"a.skel.json", {"grow", at("tiny.tree.toml")}}, {"a.blob.json", {"surface", at("tiny.tree.toml")}},
+      {"a.txt", {"derive", at("tiny.tree.toml")}},     {"a.csv", {"eval", at("tiny.tree.toml"), "--points", at("p.csv")}},
+      {"a.glb", {"mesh", at("tiny.tree.toml")}},       {"a.ply", {"mesh", at("tiny.tree.toml")}},
+      {"a.vdb", {"volume", at("tiny.tree.toml")}},     {"a.png", {"render", at("tiny.tree.toml")}},
+      {"a.exr", {"render", at("tiny.tree.toml")}}};
+  for (const auto& [name, arguments] : commands) {
+    SCOPED_TRACE(name);
+    std::string bytes[2];
+    for (const int threads : {1, 2}) {
+      std::vector<std::string> all = arguments;
+      for (const std::string& more : {std::string("-o"), at(name), std::string("--threads"), std::to_string(threads)})
+        all.push_back(more);
+      figures(all);
+      bytes[threads - 1] = folder_.read(name);
+    }
+    EXPECT_FALSE(bytes[0].empty());
+    EXPECT_TRUE(bytes[0] == bytes[1]);
+  }
+}
+
+TEST_F(Commands, SeedChangesAStochasticString) {
+  folder_.write("dice.l", "derivation length: 40\naxiom: A\nA --> FA : 1\nA --> fA : 1\n");
+  const std::string first = run_program({"derive", at("dice.l"), "--seed", "1"}).out;
+  EXPECT_EQ(run_program({"derive", at("dice.l"), "--seed", "1", "--threads", "1"}).out, first);
+  EXPECT_NE(run_program({"derive", at("dice.l"), "--seed", "2"}).out, first);
+}
+
+TEST_F(Commands, HelpAndVersionAreNoErrors) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"--version"}, {"mesh", "--help"}}) {
+    const Ran ran = run_program(arguments);
+    EXPECT_EQ(ran.status, 0);
+    EXPECT_EQ(ran.err, "");
+    EXPECT_NE(ran.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace cambium

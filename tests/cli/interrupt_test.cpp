@@ -1,0 +1,59 @@
+// Ctrl-C during long work of the real program.
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "program.h"
+#include "temporary_folder.h"
+#include "tiny_inputs.h"
+
+namespace cambium {
+namespace {
+
+using std::chrono::milliseconds;
+
+// Much longer than the 200 ms promised, for machines that are busy with other tests.
+constexpr milliseconds kPatience{1000};
+
+class Interrupt : public ::testing::Test {
+ protected:
+  /// Interrupts a command as soon as its temporary file stands beside its output, and a while later.
+  void expect_clean_end(std::vector<std::string> arguments, const std::string& output, milliseconds pause,
+                        int signal = SIGINT) {
+    const std::vector<std::string> before = folder_.names();
+    arguments.insert(arguments.end(), {"-o", folder_.path(output)});
+    const auto working = [&] { return folder_.names().size() > before.size(); };
+    const Ran ran = run_program_and_signal(arguments, working, pause, signal);
+    EXPECT_EQ(ran.status, 1) << ran.out << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_LT(ran.since_signal, kPatience);
+    EXPECT_EQ(folder_.names(), before);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Interrupt, EndsALongRenderAndLeavesNothing) {
+  const std::string input = folder_.write("tiny.skel.json", kTinySkeleton);
+  for (const int pause : {0, 300})
+    expect_clean_end({"render", input, "--size", "8000x8000", "--samples", "256", "--aov", "depth"}, "a.png",
+                     milliseconds(pause));
+}
+
+TEST_F(Interrupt, EndsALongMeshAndLeavesNothing) {
+  const std::string input = folder_.write("tiny.skel.json", kTinySkeleton);
+  for (const int pause : {0, 300}) expect_clean_end({"mesh", input, "--voxel", "0.5mm"}, "a.glb", milliseconds(pause));
+}
+
+TEST_F(Interrupt, EndsALongVolumeAndLeavesNothing) {
+  const std::string input = folder_.write("tiny.skel.json", kTinySkeleton);
+  expect_clean_end({"volume", input, "--voxel", "0.4mm"}, "a.vdb", milliseconds(300), SIGTERM);
+}
+
+TEST_F(Interrupt, EndsALongDerivationAndLeavesNothing) {
+  const std::string input = folder_.write("long.l", "derivation length: 100000\naxiom: A(0)\nA(x) : x < 1e9 --> A(x+1)\n");
+  expect_clean_end({"derive", input, "--set", "skeleton.steps=1000000"}, "a.txt", milliseconds(0));
+}
+
+}  // namespace
+}  // namespace cambium

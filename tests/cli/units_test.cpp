@@ -1,0 +1,52 @@
+#include "cli/units.h"
+
+#include <gtest/gtest.h>
+
+namespace cambium {
+namespace {
+
+const SourceLocation kHere{"--voxel"};
+
+TEST(Units, LengthsTakeMillimetresCentimetresAndMetres) {
+  EXPECT_DOUBLE_EQ(parse_length("5mm", kHere), 0.005);
+  EXPECT_DOUBLE_EQ(parse_length("0.5 cm", kHere), 0.005);
+  EXPECT_DOUBLE_EQ(parse_length(" 2 m ", kHere), 2);
+  EXPECT_DOUBLE_EQ(parse_length("-1e-3", kHere), -0.001);
+  EXPECT_DOUBLE_EQ(parse_length("+3", kHere), 3);
+}
+
+TEST(Units, WhatIsNoLengthIsRefusedByName) {
+  for (const char* text : {"", "mm", "5 miles", "nan", "inf", "1e999", "5mm5", "--5", "0x5", "5,2"}) {
+    SCOPED_TRACE(text);
+    try {
+      parse_length(text, kHere);
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.location().file, "--voxel");
+      EXPECT_EQ(error.found(), "'" + std::string(text) + "'");
+    }
+  }
+}
+
+TEST(Units, PositiveLengthsRefuseZeroAndLess) {
+  EXPECT_THROW(parse_positive_length("0mm", kHere), InputError);
+  EXPECT_THROW(parse_positive_length("-2mm", kHere), InputError);
+  EXPECT_DOUBLE_EQ(parse_positive_length("2mm", kHere), 0.002);
+}
+
+TEST(Units, ImageSizesAreTwoWholeSides) {
+  EXPECT_EQ(parse_image_size("768x1024", kHere), std::pair(768, 1024));
+  EXPECT_EQ(parse_image_size("1X65536", kHere), std::pair(1, 65536));
+  for (const char* text : {"0x0", "10", "10x", "x10", "10x0", "-1x5", "10x65537", "10x20x30", "1.5x2", "99999999999x1"}) {
+    SCOPED_TRACE(text);
+    EXPECT_THROW(parse_image_size(text, kHere), InputError);
+  }
+}
+
+TEST(Units, NumbersAreFiniteAndWhole) {
+  EXPECT_DOUBLE_EQ(parse_number(" 2.5e-1\t", kHere), 0.25);
+  for (const char* text : {"", "x", "nan", "-inf", "1 2"}) EXPECT_THROW(parse_number(text, kHere), InputError) << text;
+}
+
+}  // namespace
+}  // namespace cambium
