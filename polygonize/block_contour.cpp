@@ -12,7 +12,7 @@ namespace {
 // corner's sign is decided in double.
 constexpr float kDoubtfulValue = 1e-3f;
 // Vertices stay this far inside their cells (in voxels), so that no two can meet.
-constexpr float kCellMargin = 0.03f;
+constexpr float kCellMargin = 0.02f;
 constexpr float kReach = 0.5f - kCellMargin;
 constexpr int kRootRounds = 6;
 constexpr float kRootValue = 2e-5f;

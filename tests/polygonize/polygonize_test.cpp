@@ -55,7 +55,7 @@ TEST(Polygonize, ASphereIsRoundClosedAndOutward) {
   EXPECT_EQ(checks.inward_components, 0u);
   for (std::size_t i = 0; i < made.mesh.positions.size(); ++i) {
     const Vec3 from_center = made.mesh.positions[i] - Vec3(0.03, -0.02, 0.01);
-    EXPECT_NEAR(glm::length(from_center), 1, 0.002);
+    EXPECT_NEAR(glm::length(from_center), 1, 0.04 * made.report.voxel);   // a grazed cell holds its vertex back
     EXPECT_GT(glm::dot(glm::normalize(from_center), Vec3(made.mesh.normals[i])), 0.999);
   }
 }
