@@ -244,6 +244,7 @@ class TreeCompiler {
     support_.resize(count_);
     atom_boxes_.reserve(tree_.atoms.size());
     for (const Atom& atom : tree_.atoms) atom_boxes_.push_back(own_box(atom));
+    lifted_boxes_ = atom_boxes_;
     for (NodeId id = 0; id < count_; ++id) {
       CompiledNode& n = node(id);
       Box& box = support_[id];
@@ -258,9 +259,12 @@ class TreeCompiler {
         box = support_[child[0]];
         for (std::uint32_t i = 1; i < n.child_count; ++i)
           if (node(child[i]).range.hi > 1) box.extend(support_[child[i]]);
-      } else if (n.op == Op::kIntersection && !n.can_be_negative) {
+      } else if (n.op == Op::kIntersection) {  // positive only where all are, negative where any is
         box = support_[child[0]];
         for (std::uint32_t i = 1; i < n.child_count; ++i) box = Box::intersection(box, support_[child[i]]);
+        if (box.empty()) box = {};
+        for (std::uint32_t i = 0; i < n.child_count; ++i)
+          if (node(child[i]).can_be_negative) box.extend(support_[child[i]]);
       } else {
         for (std::uint32_t i = 0; i < n.child_count; ++i) box.extend(support_[child[i]]);
       }
@@ -276,22 +280,20 @@ class TreeCompiler {
     if (child_box.empty()) return {};
     const WarpFrame frame = warp_frame(warp);
     BendWarp* bend = std::get_if<BendWarp>(&warp);
-    const Extents of_box = extents_of(child_box, frame);
     Box box;
     double deepest = kInfinity;
     const auto add = [&](const Extents& e) {
       if (bend && e[0].hi > 0 && e[0].lo < bend->arc) deepest = std::min(deepest, e[1].lo);
       box.extend(warped_box(warp, e));
     };
-    bool all_here = true;
-    for (std::uint32_t a = n.first_atom; a < n.end_atom; ++a) all_here = all_here && node(tree_.atoms[a].node).warp == id;
-    if (!all_here) {
-      add(of_box);
-    } else {
-      for (std::uint32_t a = n.first_atom; a < n.end_atom; ++a) {
-        const Box inside = Box::intersection(atom_boxes_[a], child_box);
-        if (!inside.empty()) add(extents_of(tree_.atoms[a], inside, frame));
-      }
+    for (std::uint32_t a = n.first_atom; a < n.end_atom; ++a) {
+      const Box inside = Box::intersection(lifted_boxes_[a], child_box);
+      lifted_boxes_[a] = {};
+      if (inside.empty()) continue;
+      const Atom& atom = tree_.atoms[a];
+      const Extents e = node(atom.node).warp == id ? extents_of(atom, inside, frame) : extents_of(inside, frame);
+      add(e);
+      lifted_boxes_[a] = warped_box(warp, e);
     }
     if (bend) {
       bend->inner = bend->rho + std::min(deepest, 0.0);
@@ -336,6 +338,7 @@ class TreeCompiler {
   CompiledTree tree_;
   std::vector<ShapeOfNode> shapes_;
   std::vector<Box> support_, atom_boxes_;
+  std::vector<Box> lifted_boxes_;  ///< of atoms, in the space of the warps that bound_supports() has passed
 };
 
 }  // namespace
