@@ -2,6 +2,8 @@
 
 #include <OpenMesh/Core/IO/IOManager.hh>
 #include <OpenMesh/Core/IO/exporter/BaseExporter.hh>
+#include <OpenMesh/Core/Mesh/BaseKernel.hh>
+#include <OpenMesh/Core/System/omstream.hh>
 
 // The writers register themselves when these are included.
 #include <OpenMesh/Core/IO/writer/OBJWriter.hh>
@@ -81,6 +83,7 @@ class MeshExporter final : public OpenMesh::IO::BaseExporter {
     const double length = glm::length(n);
     return length > 0 ? OpenMesh::Vec3d(n.x / length, n.y / length, n.z / length) : OpenMesh::Vec3d(0, 0, 0);
   }
+  const OpenMesh::BaseKernel* kernel() override { return &no_properties_; }   // the PLY writer looks for custom ones
   size_t n_vertices() const override { return mesh_.positions.size(); }
   size_t n_faces() const override { return mesh_.triangles.size(); }
   size_t n_edges() const override { return mesh_.triangles.size() * 3 / 2; }
@@ -119,6 +122,28 @@ class MeshExporter final : public OpenMesh::IO::BaseExporter {
  private:
   const Mesh& mesh_;
   UpAxis up_;
+  OpenMesh::BaseKernel no_properties_;
+};
+
+// OpenMesh's writers talk to the terminal; libraries do not.
+class Silence {
+ public:
+  Silence() {
+    for (std::size_t i = 0; i < streams_.size(); ++i) {
+      was_enabled_[i] = streams_[i]->is_enabled();
+      streams_[i]->disable();
+    }
+  }
+  ~Silence() {
+    for (std::size_t i = 0; i < streams_.size(); ++i)
+      if (was_enabled_[i]) streams_[i]->enable();
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  std::array<OpenMesh::mostream*, 3> streams_{&omlog(), &omout(), &omerr()};
+  std::array<bool, 3> was_enabled_{};
 };
 
 }  // namespace
@@ -129,9 +154,10 @@ bool write_with_openmesh(const Mesh& mesh, std::ostream& out, const std::string&
   if (extension == "ply" || extension == "stl") options += Options::Binary;
   if (extension != "stl") {
     if (!mesh.normals.empty()) options += Options::VertexNormal;
-    if (!mesh.colors.empty()) options += Options::VertexColor;
+    if (!mesh.colors.empty() && extension != "obj") options += Options::VertexColor;   // its OBJ writer has none
   }
   MeshExporter exporter(mesh, up);
+  const Silence silence;
   constexpr std::streamsize kDigits = 9;   // tells neighbouring floats apart: twigs 30 m from the origin keep their shape
   return OpenMesh::IO::IOManager().write(out, extension, exporter, options, kDigits);
 }
