@@ -15,10 +15,8 @@ endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cambium)
 foreach(folder blobtree skeletons lsystem polygonize raytrace)
-  if(TARGET cambium_${folder})
-    install(TARGETS cambium_${folder} EXPORT cambium-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-                                                             LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  endif()
+  install(TARGETS cambium_${folder} EXPORT cambium-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+                                                           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
 install(EXPORT cambium-targets NAMESPACE cambium:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cambium-config.cmake.in ${PROJECT_BINARY_DIR}/cambium-config.cmake
