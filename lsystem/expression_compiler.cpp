@@ -116,7 +116,7 @@ void ExpressionCompiler::primary() {
     cursor_.advance();
     const Cursor::LineEnds inside(cursor_, true);
     binary(1);
-    cursor_.expect(')', "or an operator");
+    cursor_.expect_close(at, "or an operator");
     return;
   }
   if (is_digit(cursor_.peek()) || (cursor_.peek() == '.' && is_digit(cursor_.peek(1)))) {
@@ -137,6 +137,7 @@ void ExpressionCompiler::call(const std::string& name, std::size_t begin) {
     if (name == "func") cursor_.fail_at(begin, "'func'", "no .func curves, which are not supported yet");
     cursor_.fail_at(begin, "'" + name + "'", "the name of a function");
   }
+  const std::size_t open = cursor_.position();
   cursor_.advance();
   const Cursor::LineEnds inside(cursor_, true);
   int count = 0;
@@ -147,7 +148,7 @@ void ExpressionCompiler::call(const std::string& name, std::size_t begin) {
       ++count;
     } while (cursor_.accept(','));
   }
-  cursor_.expect(')', "or ','");
+  cursor_.expect_close(open, "or ','");
   if (count != function->arity)
     cursor_.fail_at(begin, "'" + name + "' with " + std::to_string(count) + (count == 1 ? " argument" : " arguments"),
                     std::to_string(function->arity));

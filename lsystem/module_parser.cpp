@@ -55,9 +55,9 @@ std::uint16_t ModuleParser::number(const std::string& name, std::size_t at) {
   return number;
 }
 
-// At a line end: whether the next line that is not blank goes on with the successor. It does if it is indented and nothing in it
-// makes it a production or a keyword of its own. Leaves the cursor there if so.
-bool ModuleParser::line_continues() {
+// At a line end: whether the next line that is not blank goes on with the successor. It does if it is indented, or inside brackets, and
+// nothing in it makes it a production or a keyword of its own. Leaves the cursor there if so.
+bool ModuleParser::line_continues(bool inside_brackets) {
   const std::string& text = cursor_.source().text;
   const std::size_t before = cursor_.position();
   cursor_.skip_blank_lines();
@@ -69,7 +69,7 @@ bool ModuleParser::line_continues() {
   const std::string word = cursor_.word();
   std::size_t next = end;
   while (next < text.size() && (text[next] == '\n' || text[next] == ' ' || text[next] == '\t')) ++next;
-  const bool goes_on = indented && first < text.size() && !is_keyword(word) && line.find("-->") == std::string_view::npos &&
+  const bool goes_on = (indented || inside_brackets) && first < text.size() && !is_keyword(word) && line.find("-->") == std::string_view::npos &&
                        line.find(':') == std::string_view::npos && text.compare(next, 3, "-->") != 0;
   cursor_.seek(goes_on ? first : before);
   return goes_on;
@@ -82,7 +82,7 @@ void ModuleParser::modules(Successor& out, Scope& scope) {
     cursor_.skip_space();
     if (cursor_.at_end()) break;
     if (cursor_.peek() == '\n') {
-      if (!line_continues()) break;
+      if (!line_continues(!open.empty())) break;
       continue;
     }
     const std::size_t at = cursor_.position();
@@ -97,13 +97,14 @@ void ModuleParser::modules(Successor& out, Scope& scope) {
     cursor_.skip_space();
     std::size_t arity = 0;
     if (cursor_.peek() == '(') {
+      const std::size_t open_parameters = cursor_.position();
       cursor_.advance();
       const Cursor::LineEnds inside(cursor_, true);
       do {
         compiler.expression();
         if (++arity > kMaxParameters) cursor_.fail("fewer than 1000 parameters");
       } while (cursor_.accept(','));
-      cursor_.expect(')', "or ','");
+      cursor_.expect_close(open_parameters, "or ','");
     }
     out.arities.push_back(static_cast<std::uint16_t>(arity));
     out.parameter_count += arity;
@@ -114,7 +115,7 @@ void ModuleParser::modules(Successor& out, Scope& scope) {
 Successor ModuleParser::successor(Scope& scope) {
   Successor out;
   cursor_.skip_space();
-  if (cursor_.peek() == '\n') line_continues();
+  if (cursor_.peek() == '\n') line_continues(false);
   if (cursor_.peek() == '*') {
     cursor_.advance();
     return out;
@@ -171,9 +172,22 @@ Production ModuleParser::production() {
   int part = 1;
   bool left_seen = false;
   {
-    const Cursor::LineEnds inside(cursor_, true);
+    const auto check_single = [&] {
+      if (parts[1].size() > 1)
+        cursor_.fail_at(parts[1][1].at, "'" + parts[1][1].name + "'", "one predecessor, then '<', '>', ':' or '-->'");
+    };
     while (true) {
       cursor_.skip_space();
+      if (cursor_.at_line_end()) {
+        // The next line goes on with this production only by a mark that cannot begin one.
+        const std::size_t line_end = cursor_.position();
+        cursor_.skip_blank_lines();
+        const char next = cursor_.peek();
+        if (!cursor_.looking_at("-->") && next != ':' && next != '<' && next != '>') {
+          check_single();
+          cursor_.fail_at(line_end, cursor_.describe(line_end), "'-->'");
+        }
+      }
       if (cursor_.looking_at("-->") || cursor_.peek() == ':') break;
       if (cursor_.peek() == '<') {
         if (left_seen || part == 2) cursor_.fail("'>', ':' or '-->'");
@@ -191,8 +205,8 @@ Production ModuleParser::production() {
       }
     }
     if (parts[1].empty()) cursor_.fail("a predecessor");
-    if (parts[1].size() > 1)
-      cursor_.fail_at(parts[1][1].at, "'" + parts[1][1].name + "'", "one predecessor, then '<', '>', ':' or '-->'");
+    check_single();
+    const Cursor::LineEnds inside(cursor_, true);
     if (part == 2 && parts[2].empty()) cursor_.fail("a right context");
     const FormalModule& predecessor = parts[1][0];
     if (predecessor.name == "[" || predecessor.name == "]")
@@ -233,6 +247,7 @@ Production ModuleParser::production() {
   out.successor = successor(scope);
   if (cursor_.accept(':')) {
     cursor_.skip_space();
+    out.weight_place = cursor_.place();
     ExpressionCompiler(cursor_, scope, out.weight).expression();
   }
   cursor_.skip_space();

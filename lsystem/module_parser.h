@@ -24,7 +24,7 @@ class ModuleParser {
   Production production();
 
  private:
-  bool line_continues();
+  bool line_continues(bool inside_brackets);
   void modules(Successor& out, Scope& scope);
   struct FormalModule;
   FormalModule formal(Scope& scope);

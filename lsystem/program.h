@@ -34,7 +34,7 @@ struct Production {
   Successor successor;
   std::uint32_t local_count = 0;
   std::uint32_t group = 0;           ///< productions of one predecessor and contexts, among which weights draw
-  Place place;
+  Place place, weight_place;
 };
 
 /// Productions and, for each symbol, those that rewrite it, in the file's order.

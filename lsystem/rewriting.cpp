@@ -159,7 +159,7 @@ const Production* Rewriter::choose(const ModuleString& in, std::size_t index, co
     if (production.weight.empty()) return &production;
     const double weight = machine_.value(production.weight, locals_.data());
     if (weight < 0.0)
-      throw InputError(located(program_.files, production.weight.places[0]), "a negative weight", "a weight of 0 or more");
+      throw InputError(located(program_.files, production.weight_place), "a negative weight", "a weight of 0 or more");
     if (weight == 0.0) continue;
     total += weight;
     candidates_.push_back({&production, total, candidate_locals_.size()});

@@ -16,6 +16,12 @@ void Cursor::expect(char c, std::string_view where) {
   if (!accept(c)) fail(std::string("'") + c + "' " + std::string(where));
 }
 
+void Cursor::expect_close(std::size_t open, std::string_view where) {
+  if (accept(')')) return;
+  if (at_line_end() || place().line != place_of(open).line) fail_at(open, "'(' without an end", "')' on the same line");
+  fail("')' " + std::string(where));
+}
+
 void Cursor::skip_space() {
   while (!at_end()) {
     const char c = peek();

@@ -51,6 +51,8 @@ class Cursor {
   void advance(std::size_t count = 1) { position_ += count; }
   bool accept(char c);                         ///< skips space, then takes c if it stands there
   void expect(char c, std::string_view where); ///< as accept, else InputError: expected 'c' `where`
+  /// The ')' that belongs to the '(' at `open`; where another line ended without it, the error is at `open`.
+  void expect_close(std::size_t open, std::string_view where);
   /// Spaces and tabs; also line ends inside parentheses or blocks (see LineEnds).
   void skip_space();
   void skip_blank_lines();                     ///< all white space
