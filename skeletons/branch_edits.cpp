@@ -29,7 +29,7 @@ void cut_axis(AxisTree& tree, std::size_t index, const Prune& prune, Profile pro
   Vec3 normal = prune.normal ? glm::normalize(*prune.normal) : tangent;
   if (glm::dot(normal, tangent) < 0) normal = -normal;
   const double cosine = std::max(glm::dot(normal, tangent), kFlattestCut);
-  const double slope = std::sqrt(1 - cosine * cosine) / cosine;
+  const double slope = std::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine;
 
   std::vector<bool> beyond(tree.axes.size(), false);
   bool any = false;

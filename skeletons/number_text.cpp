@@ -54,8 +54,10 @@ std::vector<TextField> split_at(std::string_view line, char separator) {
 
 std::string quoted(std::string_view text) {
   if (text.empty()) return "nothing";
-  if (text.size() > 40) return "'" + std::string(text.substr(0, 37)) + "...'";
-  return "'" + std::string(text) + "'";
+  std::string out(1, '\'');
+  out.append(text.substr(0, text.size() > 40 ? 37 : text.size()));
+  out.append(text.size() > 40 ? "...'" : "'");
+  return out;
 }
 
 double parse_finite(const TextField& field, const std::string& file, int line, const std::string& what) {
