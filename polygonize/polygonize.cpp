@@ -5,6 +5,7 @@
 #include "polygonize/block_search.h"
 #include "polygonize/cell_blocks.h"
 #include "polygonize/lattice.h"
+#include "polygonize/mesh_components.h"
 #include "polygonize/progress_meter.h"
 #include "polygonize/voxel_choice.h"
 
@@ -19,7 +20,6 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <numeric>
 
 namespace cambium {
 namespace {
@@ -93,25 +93,6 @@ void append_triangles(const Quad& q, const std::vector<Vec3>& positions, std::ar
   }
 }
 
-std::size_t count_components(const Mesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  std::size_t components = parent.size();
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& t : mesh.triangles) {
-    for (int i = 0; i < 2; ++i) {
-      const std::uint32_t a = root(t[i]), b = root(t[i + 1]);
-      if (a == b) continue;
-      parent[std::max(a, b)] = std::min(a, b);
-      --components;
-    }
-  }
-  return components;
-}
-
 // Copies the vertices that the connectivity settled on into the mesh and gives back the block's share of memory.
 void take_vertices(BlockContour& block, std::size_t index, const CellConnectivity& connectivity, Mesh& mesh,
                    double& largest_distance) {
@@ -133,7 +114,7 @@ void take_vertices(BlockContour& block, std::size_t index, const CellConnectivit
   block.flipped = {};
 }
 
-std::optional<Polygonized> assemble(Contours blocks, bool colors, const RunOptions& run) {
+std::optional<Polygonized> assemble(Contours blocks, double voxel, bool colors, const RunOptions& run) {
   ProgressMeter progress(run, "joining cells");
   std::vector<const CellBlock*> cells;
   cells.reserve(blocks.size());
@@ -169,7 +150,10 @@ std::optional<Polygonized> assemble(Contours blocks, bool colors, const RunOptio
 
   result.report.cells = connectivity.cell_count();
   result.report.ambiguous_faces = connectivity.flipped_faces();
-  result.report.components = count_components(mesh);
+  const auto components = close_small_voids(mesh, voxel * voxel * voxel, run);
+  if (!components) return std::nullopt;
+  result.report.components = components->components;
+  result.report.closed_voids = components->closed_voids;
   for (const double distance : distances) result.report.largest_distance = std::max(result.report.largest_distance, distance);
   progress.finish();
   return result;
@@ -202,7 +186,7 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
       } else if (count_first) {
         count_first = false;
       } else {
-        auto assembled = assemble(std::move(found.blocks), static_cast<bool>(options.color), run);
+        auto assembled = assemble(std::move(found.blocks), voxel, static_cast<bool>(options.color), run);
         if (!assembled) return std::nullopt;
         result = std::move(*assembled);
         break;

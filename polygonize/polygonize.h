@@ -23,6 +23,7 @@ struct PolygonizeReport {
   double voxel = 0;
   std::size_t cells = 0;                    ///< that hold the surface
   std::size_t components = 0;
+  std::size_t closed_voids = 0;             ///< cavities of less than a cell's volume, left out
   std::size_t thin_primitives = 0;          ///< primitives thinner than a cell: their twigs may be broken or missing
   double thin_length = 0;                   ///< metres of them (by support box diagonal)
   double thinnest_radius = 0;

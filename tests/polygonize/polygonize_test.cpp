@@ -35,6 +35,7 @@ MeshChecks expect_sound(const Field& field, const Polygonized& made) {
   EXPECT_EQ(checks.components, made.report.components);
   EXPECT_EQ(made.mesh.normals.size(), made.mesh.positions.size());
   EXPECT_LE(made.report.largest_distance, 0.5 * made.report.voxel);
+  EXPECT_LE(made.report.largest_distance, 0.5 * made.report.voxel);
   for (std::size_t i = 0; i < made.mesh.positions.size(); ++i) {
     const Sample sample = field.sample(made.mesh.positions[i]);
     const double slope = glm::length(sample.gradient);
@@ -76,6 +77,13 @@ TEST(Polygonize, ChainForkAndContactAreOnePieceEach) {
       EXPECT_EQ(checks.inward_components, 0u);
     }
   }
+}
+
+TEST(Polygonize, ACreviceThinnerThanACellLeavesNoBubbles) {
+  const Field field = testing::fork_field();   // its ridge's lips nearly touch
+  const Polygonized made = mesh_of(field, 0.01);
+  EXPECT_GT(made.report.closed_voids, 0u) << "the case this is for";
+  EXPECT_EQ(expect_sound(field, made).components, 1u);
 }
 
 TEST(Polygonize, RandomBlobTreesAreManifoldAtAnyCellSize) {

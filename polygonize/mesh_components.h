@@ -1,0 +1,22 @@
+// Connected pieces of a closed mesh, and the removal of cavities too small for its cells to show.
+#pragma once
+
+#include "blobtree/run_options.h"
+#include "polygonize/mesh.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace cambium {
+
+struct ComponentReport {
+  std::size_t components = 0;      ///< that remain
+  std::size_t closed_voids = 0;    ///< that were removed
+};
+
+/// Removes every component that encloses a void (negative volume) of less than `smallest_void` cubic metres: where two branches
+/// meet in a crevice narrower than a cell, lone outside corners between them would leave bubbles in the wood. What remains
+/// keeps its order. nullopt, with the mesh left as it was, if cancelled. Cost: about linear in triangles.
+std::optional<ComponentReport> close_small_voids(Mesh& mesh, double smallest_void, const RunOptions& run);
+
+}  // namespace cambium

@@ -1,0 +1,58 @@
+#include "polygonize/mesh_components.h"
+
+#include "tests/polygonize/mesh_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+namespace cambium {
+namespace {
+
+// A tetrahedron of the given size; inward turns it inside out.
+void add_tetrahedron(Mesh& mesh, const Vec3& at, double size, bool inward) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& p : {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    mesh.positions.push_back(at + size * p);
+    mesh.normals.push_back(glm::vec3(p));
+    mesh.colors.push_back({static_cast<std::uint8_t>(first), 0, 0, 255});
+  }
+  for (std::array<std::uint32_t, 3> t : {std::array<std::uint32_t, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) {
+    if (inward) std::swap(t[1], t[2]);
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+}
+
+TEST(MeshComponents, OnlySmallVoidsAreRemoved) {
+  Mesh mesh;
+  const Vec3 far(1000, 2000, -500);
+  add_tetrahedron(mesh, far, 10, false);
+  add_tetrahedron(mesh, far + 1.0, 0.01, true);    // a bubble
+  add_tetrahedron(mesh, far + 2.0, 2, true);       // a hollow worth keeping
+  add_tetrahedron(mesh, far + 20.0, 0.01, false);  // a bead
+  const auto report = close_small_voids(mesh, 1e-3, {});
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->closed_voids, 1u);
+  EXPECT_EQ(report->components, 3u);
+  const auto checks = testing::check_mesh(mesh);
+  EXPECT_TRUE(checks.closed_manifold()) << checks;
+  EXPECT_EQ(checks.components, 3u);
+  ASSERT_EQ(mesh.colors.size(), 12u);
+  EXPECT_EQ(mesh.colors[4][0], 8);   // the hollow moved up, with its colours
+  EXPECT_EQ(mesh.normals.size(), 12u);
+}
+
+TEST(MeshComponents, CancelledItLeavesTheMeshAlone) {
+  Mesh mesh;
+  add_tetrahedron(mesh, Vec3(0), 0.01, true);
+  const std::atomic<bool> cancel{true};
+  RunOptions run;
+  run.cancel = &cancel;
+  EXPECT_FALSE(close_small_voids(mesh, 1, run).has_value());
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(close_small_voids(mesh, 1, {})->closed_voids, 1u);
+  EXPECT_TRUE(mesh.triangles.empty());
+}
+
+}  // namespace
+}  // namespace cambium
