@@ -67,7 +67,7 @@ class Machine {
   double value(const Code& code, double* locals) { return *run(code, locals); }
 
   std::vector<double> globals;
-  std::uint64_t work = 0;  ///< instructions so far
+  std::uint64_t work = 0;  ///< instructions so far; the rewriter adds its own steps
 
   static constexpr std::uint64_t kMaxWork = 4'000'000;
 

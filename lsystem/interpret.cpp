@@ -17,7 +17,7 @@ namespace cambium {
 namespace {
 
 constexpr double kRadian = std::numbers::pi / 180.0;
-// A position counts as that of the last node within this part of its coordinates: `f(1)|f(1)` comes back to it but for rounding.
+// A turtle position counts as that of the last node within this part of its coordinates: `f(1)|f(1)` comes back to it but for rounding.
 constexpr double kSamePlace = 1e-9;
 constexpr int kTurnsBetweenRepairs = 64;
 
@@ -256,7 +256,7 @@ Turtled interpret(const ModuleString& string, const LSystem& system, const Turtl
   drawn.first = string.first;
   drawn.parameters = string.parameters;
   const RunOptions run;
-  Rewriter rewriter(program, string.seed, std::numeric_limits<std::uint32_t>::max(), run);
+  Rewriter rewriter(program, string.seed, DeriveOptions{}.max_modules, run);
   if (string.variables.size() == rewriter.variables().size()) rewriter.variables() = string.variables;
   rewriter.expand(drawn, program.homomorphism, Stage::kHomomorphism, 0);
   drawn.names = program.symbols.names();

@@ -111,7 +111,7 @@ class Parser {
     } else if (keyword == "derivation length") {
       program_->derivation_length = static_cast<int>(whole_number("a number of steps", 1e9));
     } else if (keyword == "maximum depth") {
-      rules_->max_depth = static_cast<int>(whole_number("a depth", 1e6));
+      rules_->max_depth = static_cast<int>(whole_number("a depth up to 1000", 1000));
     } else if (keyword == "ring lsystem") {
       if (whole_number("0 or 1", 1) != 0) cursor_.fail_at(begin, "'ring lsystem', which is not supported yet", "no ring");
     } else if (keyword == "consider" || keyword == "ignore") {

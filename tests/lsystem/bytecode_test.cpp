@@ -1,0 +1,68 @@
+#include "lsystem/bytecode.h"
+
+#include <gtest/gtest.h>
+
+namespace cambium {
+namespace {
+
+Code code_of(std::vector<Instruction> instructions, std::vector<double> constants, std::size_t stack_size) {
+  Code code;
+  code.instructions = std::move(instructions);
+  code.constants = std::move(constants);
+  for (std::uint32_t i = 0; i < code.instructions.size(); ++i) code.places.push_back({7, i + 1, 0});
+  code.stack_size = stack_size;
+  return code;
+}
+
+class Bytecode : public testing::Test {
+ protected:
+  int column_of_error(const Code& code) {
+    try {
+      machine.run(code, locals);
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.location().line, 7);
+      return error.location().column;
+    }
+    return 0;
+  }
+
+  std::vector<std::string> files{"test.l"};
+  std::vector<ArrayInfo> arrays{{"a", 0, {2, 3}}};
+  CounterRandom random{1};
+  Machine machine{files, arrays, random};
+  double locals[4] = {10, 20, 30, 40};
+};
+
+TEST_F(Bytecode, LeavesItsValuesBottomFirst) {
+  const Code code = code_of({{Op::kLocal, 1}, {Op::kConstant, 0}, {Op::kLocal, 0}, {Op::kSubtract}}, {3}, 3);
+  const double* values = machine.run(code, locals);
+  EXPECT_EQ(values[0], 20);
+  EXPECT_EQ(values[1], -7);
+  EXPECT_GE(machine.work, 4u);
+}
+
+TEST_F(Bytecode, ElementsAreCheckedAgainstTheArraysSizes) {
+  machine.globals = {0, 1, 2, 3, 4, 5};
+  const std::vector<Instruction> load = {{Op::kConstant, 0}, {Op::kConstant, 1}, {Op::kElement, 0}};
+  EXPECT_EQ(machine.value(code_of(load, {1, 2}, 2), locals), 5);
+  EXPECT_EQ(column_of_error(code_of(load, {1, 3}, 2)), 3);
+  EXPECT_EQ(column_of_error(code_of(load, {-1, 0}, 2)), 3);
+  const std::vector<Instruction> store = {{Op::kConstant, 0}, {Op::kConstant, 1}, {Op::kLocal, 3}, {Op::kStoreElement, 0}};
+  machine.run(code_of(store, {0, 1}, 3), locals);
+  EXPECT_EQ(machine.globals[1], 40);
+}
+
+TEST_F(Bytecode, ErrorsNameTheInstruction) {
+  EXPECT_EQ(column_of_error(code_of({{Op::kConstant, 0}, {Op::kConstant, 0}, {Op::kDivide}}, {0}, 2)), 3);
+  EXPECT_EQ(column_of_error(code_of({{Op::kConstant, 0}, {Op::kConstant, 0}, {Op::kMultiply}}, {1e200}, 2)), 3);
+  EXPECT_NE(column_of_error(code_of({{Op::kJump, 0}}, {}, 0)), 0);  // never ends
+}
+
+TEST_F(Bytecode, FunctionsAreFoundByName) {
+  ASSERT_NE(find_function("atan2"), nullptr);
+  EXPECT_EQ(find_function("atan2")->arity, 2);
+  EXPECT_EQ(find_function("Sin"), nullptr);
+}
+
+}  // namespace
+}  // namespace cambium
