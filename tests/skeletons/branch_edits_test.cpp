@@ -82,8 +82,8 @@ TEST(BranchEdits, AnEarlierPartOfABentBranchBeyondThePlaneIsNotCut) {
   const Field cut(surface(s, options).tree);
   EXPECT_GT(cut.value({10, 0, 5.1}), kIso);
   EXPECT_EQ(cut.value({10, 0, 4.9}), 0);
-  EXPECT_NEAR(cut.value({0.3, 0, 2}), kIso, 1e-9);
-  EXPECT_NEAR(cut.value({0.3, 0, 5}), kIso, 1e-9);
+  EXPECT_NEAR(cut.value({0.3, 0, 2}), kIso, 0.02);  // smoothing moves the bend by a fiftieth of the radius
+  EXPECT_NEAR(cut.value({0.3, 0, 5}), kIso, 0.02);
 }
 
 TEST(BranchEdits, APositionNamesTheNearestBranch) {
