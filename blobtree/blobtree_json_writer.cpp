@@ -98,12 +98,16 @@ class Writer {
     return fmt::format(", \"{}\": [{}, {}, {}]", key, v.x, v.y, v.z);
   }
   void put_angle(const char* key, double radians) {
+    // Shortest as a double if its text, read with all its digits, comes back to the same radians; else as a long double.
     const long double degrees = degrees_from_radians(radians);
-    const auto rounded = static_cast<double>(degrees);
-    if (radians_from_degrees(rounded) == radians) return put(key, rounded);
-    char text[64];
-    const auto end = std::to_chars(text, text + sizeof text, degrees).ptr;
-    fmt::format_to(std::back_inserter(out_), ", \"{}\": {}", key, std::string_view(text, static_cast<std::size_t>(end - text)));
+    std::string text = fmt::format("{}", static_cast<double>(degrees));
+    long double read = 0;
+    std::from_chars(text.data(), text.data() + text.size(), read);
+    if (radians_from_degrees(read) != radians) {
+      text.resize(64);
+      text.resize(static_cast<std::size_t>(std::to_chars(text.data(), text.data() + text.size(), degrees).ptr - text.data()));
+    }
+    fmt::format_to(std::back_inserter(out_), ", \"{}\": {}", key, text);
   }
   void put_contact(double width, double lip) {
     if (width != kIso) put("width", width);

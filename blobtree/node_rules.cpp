@@ -130,7 +130,7 @@ void check(const Difference& n) { check_at_least_one("children", n.children.size
 
 void check(const Ricci& n) {
   check_at_least_one("children", n.children.size());
-  if (!(std::isfinite(n.exponent) && n.exponent >= 1)) refuse("exponent", show(n.exponent), "a finite number, at least 1");
+  if (!(n.exponent >= 1 && n.exponent <= kLargestLength)) refuse("exponent", show(n.exponent), "a number from 1 to 1e9");
 }
 
 void check(const Contact& n) {

@@ -1,6 +1,8 @@
 #include "blobtree/operators.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace cambium {
 namespace {
@@ -51,13 +53,14 @@ Interval difference_of(const Interval& first, const Interval* taken, std::size_t
 }
 
 Interval ricci_of(const Interval* f, std::size_t n, double exponent) {
-  double lo = 0, hi = 0;
+  std::vector<double> lo, hi;
   for (std::size_t i = 0; i < n; ++i) {
-    lo += std::pow(std::max(f[i].lo, 0.0), exponent);
-    hi += std::pow(std::max(f[i].hi, 0.0), exponent);
+    lo.push_back(f[i].lo);
+    hi.push_back(f[i].hi);
   }
-  const Interval bound = widened({std::pow(lo, 1 / exponent), std::pow(hi, 1 / exponent)});
-  return {std::max(0.0, bound.lo), hi > 0 ? bound.hi : 0.0};
+  const Interval bound = widened({ricci_of(lo.data(), n, exponent), ricci_of(hi.data(), n, exponent)});
+  const bool zero = std::all_of(hi.begin(), hi.end(), [](double v) { return v <= 0; });
+  return {std::max(0.0, bound.lo), zero ? 0.0 : bound.hi};
 }
 
 Interval contact_of(const Interval* f, std::size_t n, bool with_zero, double width, double lip) {

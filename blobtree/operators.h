@@ -48,10 +48,13 @@ template <class N>
 N ricci_of(const N* f, std::size_t n, double exponent) {
   using T = typename NumberOf<N>::type;
   const T e = static_cast<T>(exponent);
+  T largest(0);
+  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, value_of(f[i]));
+  const N unit(largest > T(1e-18) ? largest : T(1));  // or high powers would all round to 0
   N total(0);
   for (std::size_t i = 0; i < n; ++i)
-    if (value_of(f[i]) > 0) total = total + power(f[i], e);
-  return value_of(total) > 0 ? power(total, T(1) / e) : N(0);
+    if (value_of(f[i]) > 0) total = total + power(f[i] / unit, e);
+  return value_of(total) > 0 ? unit * power(total, T(1) / e) : N(0);
 }
 
 /// D(f) of contact: interpenetration c - f inside, propagation h(f) within `width` outside (Gascuel 1993; lip is ours).
