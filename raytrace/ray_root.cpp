@@ -62,8 +62,7 @@ std::optional<double> first_root(Evaluator& evaluator, const PrunedField& field,
   if (evaluator.value(field, ray.at(t)) >= kIso) return t;
   double step = length;
   while (t < segment.end) {
-    double next = t + step;
-    if (next >= segment.end || segment.end - next < 0.5 * shortest) next = segment.end;
+    const double next = std::min(t + step, segment.end);
     const double span = next - t;
     if (span > shortest) {
       const Interval range = evaluator.interval(field, Ball{ray.at(t + 0.5 * span), 0.5 * span});
@@ -71,7 +70,7 @@ std::optional<double> first_root(Evaluator& evaluator, const PrunedField& field,
         t = next;
         step = 2 * span;
       } else {
-        step = std::max(0.5 * span, 0.999 * shortest);
+        step = std::max(0.5 * span, 0.999 * shortest);  // below `shortest` at the latest after log2 halvings
       }
       continue;
     }
