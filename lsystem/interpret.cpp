@@ -207,7 +207,7 @@ class Interpreter {
     if (length < 0) fail("a length of " + number_text(length), "a length of 0 or more");
     const Vec3 tip = state_.position + length * state_.frame.heading;
     check_position(tip);
-    double radius = 0.5 * state_.width;
+    double radius = 0.5 * state_.width * options_.width_unit;
     bool lateral = state_.lateral;
     std::int32_t parent = state_.node;
     if (!stands_at(parent)) {

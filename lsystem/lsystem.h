@@ -63,7 +63,8 @@ std::string to_text(const ModuleString& string);
 struct TurtleOptions {
   double step = 1;                         ///< metres of an F without parameter
   double angle = 0;                        ///< radians of + - & ^ \ / without parameter; 0: 90 degrees
-  double width = 0.1;                      ///< metres (diameter) before the first ! or #
+  double width = 0.1;                      ///< diameter before the first ! or #, in width units
+  double width_unit = 1;                   ///< metres; ABOP's figures give widths in pixels beside lengths in metres, say
   double width_factor = 0.70710678118654752;  ///< of a `!` without parameter; `#` divides by it. Default: halves the area
   Vec3 tropism{0, 0, -1};
   double elasticity = 0;

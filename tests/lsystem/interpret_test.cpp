@@ -84,6 +84,14 @@ TEST(Interpret, RadiiThatRiseTowardsTheTipAreClampedAndCounted) {
   EXPECT_EQ(result.last_width, 4);
 }
 
+TEST(Interpret, WidthsHaveAUnit) {
+  TurtleOptions options;
+  options.width_unit = 0.01;
+  const Turtled result = turtled("!(10)F", options);
+  EXPECT_NEAR(result.skeleton.nodes[1].radius, 0.05, 1e-15);
+  EXPECT_EQ(result.last_width, 10);
+}
+
 TEST(Interpret, WidthWithoutParameterHalvesTheArea) {
   const Skeleton skeleton = turtled("!(2)F!F!F#F").skeleton;
   EXPECT_NEAR(skeleton.nodes[2].radius, std::sqrt(0.5), 1e-15);
