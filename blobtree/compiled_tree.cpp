@@ -290,6 +290,11 @@ class TreeCompiler {
       const Box inside = Box::intersection(lifted_boxes_[a], child_box);
       lifted_boxes_[a] = {};
       if (inside.empty()) continue;
+      if (!inside.bounded()) {  // a half-space, for an operator above to bound; nothing is known of where it goes
+        if (bend) deepest = -kInfinity;
+        lifted_boxes_[a] = box = kEverywhere;
+        continue;
+      }
       const Atom& atom = tree_.atoms[a];
       const Extents e = node(atom.node).warp == id ? extents_of(atom, inside, frame) : extents_of(inside, frame);
       add(e);
@@ -322,6 +327,10 @@ class TreeCompiler {
       Box box = Box::intersection(atom_boxes_[a], clip[atom.node]);
       bool innermost = true;
       for (std::uint32_t w = node(atom.node).warp; w != kNone && !box.empty(); w = node(w).warp, innermost = false) {
+        if (!box.bounded()) {
+          box = clip[w];
+          continue;
+        }
         const Warp& warp = tree_.warps[node(w).payload];
         const WarpFrame frame = warp_frame(warp);
         const Extents e = innermost ? extents_of(atom, box, frame) : extents_of(box, frame);

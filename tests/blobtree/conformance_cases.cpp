@@ -84,7 +84,8 @@ class Grower {
   }
 
   NodeId half_space() {
-    return add(HalfSpace{draws_.point({Vec3(-0.4), Vec3(0.4)}), 2.0 * draws_.direction(), draws_.in(0.02, 0.3)});
+    const NodeId half = add(HalfSpace{draws_.point({Vec3(-0.4), Vec3(0.4)}), 2.0 * draws_.direction(), draws_.in(0.02, 0.3)});
+    return draws_.chance(0.8) ? half : add(Twist{draws_.point(kPlace), draws_.direction(), draws_.in(-1.5, 1.5), half});
   }
 
   NodeId fork(int depth) {
