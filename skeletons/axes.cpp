@@ -65,25 +65,27 @@ std::int64_t continuation(const std::vector<SkeletonNode>& nodes, const ChildLis
 }
 
 /// Appends the internode to `node`: a step in radius at its base becomes a short taper.
-void append_internode(Axis& axis, const SkeletonNode& node, bool first_of_lateral, std::size_t& merged) {
+void append_internode(Axis& axis, const SkeletonNode& node, bool first_of_lateral, RadiusSteps steps,
+                     std::size_t& merged) {
   const AxisNode last = axis.nodes.back();
   const double length = glm::distance(last.position, node.position);
   if (length <= kCoincident * std::max(last.radius, node.radius)) {
     ++merged;
     return;
   }
-  if (!first_of_lateral && node.base_radius && *node.base_radius < 0.98 * last.radius) {
+  const bool step = !first_of_lateral && node.base_radius && *node.base_radius < 0.98 * last.radius;
+  if (step && steps == RadiusSteps::kTaper) {
     const double taper = std::min(0.5 * length, std::max(4 * (last.radius - *node.base_radius), 0.6 * last.radius));
     const double t = taper / length;
     axis.nodes.push_back({glm::mix(last.position, node.position, t),
                           *node.base_radius + t * (node.radius - *node.base_radius)});
   }
-  axis.nodes.push_back({node.position, node.radius});
+  axis.nodes.push_back({node.position, node.radius, step && steps == RadiusSteps::kKeep ? *node.base_radius : 0});
 }
 
 }  // namespace
 
-AxisTree decompose_axes(const Skeleton& skeleton, std::size_t* merged) {
+AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t* merged) {
   struct Start { std::int32_t parent; AxisPlace attach; std::uint32_t from, first; };
   const std::vector<SkeletonNode> nodes = finite_nodes(skeleton);
   const ChildLists lists(nodes);
@@ -104,7 +106,7 @@ AxisTree decompose_axes(const Skeleton& skeleton, std::size_t* merged) {
     const SkeletonNode& head = nodes[start.first];
     axis.nodes.push_back({nodes[start.from].position, head.base_radius.value_or(head.radius)});
     std::uint32_t at = start.first;
-    if (start.parent >= 0) append_internode(axis, head, true, merged_here);
+    if (start.parent >= 0) append_internode(axis, head, true, steps, merged_here);
     Vec3 direction = unit_or(nodes[at].position - nodes[start.from].position, Vec3(0, 0, 1));
     while (true) {
       const std::int64_t next = continuation(nodes, lists, at, direction);
@@ -114,7 +116,7 @@ AxisTree decompose_axes(const Skeleton& skeleton, std::size_t* merged) {
         if (lists.child[k] != next) starts.push_back({static_cast<std::int32_t>(s), place, at, lists.child[k]});
       if (next < 0) break;
       direction = unit_or(nodes[next].position - nodes[at].position, direction);
-      append_internode(axis, nodes[next], false, merged_here);
+      append_internode(axis, nodes[next], false, steps, merged_here);
       at = static_cast<std::uint32_t>(next);
     }
     tree.axes.push_back(std::move(axis));

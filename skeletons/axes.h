@@ -12,6 +12,13 @@ namespace cambium {
 struct AxisNode {
   Vec3 position{0.0};
   double radius = 0;
+  double base_radius = 0;                  ///< where the segment to this node begins; 0: the radius of the node before
+};
+
+/// What becomes of an internode that begins thinner than its parent ends.
+enum class RadiusSteps {
+  kTaper,                                  ///< a node more, so that the step is a short taper
+  kKeep,                                   ///< AxisNode::base_radius is set
 };
 
 /// A place on an axis: on the segment from nodes[segment] to nodes[segment + 1], t in [0, 1].
@@ -51,7 +58,7 @@ std::vector<std::vector<std::uint32_t>> laterals_of(const AxisTree& tree);
 /// The child that continues an axis is the unbracketed one (`lateral` false), else the thickest, else the straightest, else
 /// the first. Nodes that are not finite take their parent's place; coincident neighbours are merged (their number is
 /// added to *merged). Cost: linear; no recursion.
-AxisTree decompose_axes(const Skeleton& skeleton, std::size_t* merged = nullptr);
+AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps = RadiusSteps::kTaper, std::size_t* merged = nullptr);
 
 Vec3 position_at(const Axis& axis, const AxisPlace& place);
 double radius_at(const Axis& axis, const AxisPlace& place);

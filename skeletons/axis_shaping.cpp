@@ -22,7 +22,8 @@ double mix_at(double a, double b, double t) { return a + t * (b - a); }
 Path path_of(const Axis& axis) {
   Path path;
   path.reserve(axis.nodes.size());
-  for (const AxisNode& node : axis.nodes) path.push_back({node.position, node.radius, static_cast<double>(path.size())});
+  for (const AxisNode& node : axis.nodes) 
+    path.push_back({node.position, node.radius, static_cast<double>(path.size()), node.base_radius});
   return path;
 }
 
@@ -72,10 +73,20 @@ std::size_t merge_short(Path& path, double spacing) {
     return glm::distance(a.position, b.position) < spacing * a.radius;
   };
   std::size_t kept = 1;
-  for (std::size_t i = 1; i + 1 < count; ++i)
-    if (!too_near(path[kept - 1], path[i])) path[kept++] = path[i];
-  while (kept > 1 && too_near(path[kept - 1], path.back())) --kept;
-  path[kept++] = path.back();
+  double base = 0;                         // where the internode after the last node kept began; 0 before it is known
+  const auto begin_with = [&](double radius, double before) { base = base > 0 ? base : radius > 0 ? radius : before; };
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    begin_with(path[i].base_radius, path[kept - 1].radius);
+    if (too_near(path[kept - 1], path[i])) continue;
+    path[kept] = path[i];
+    path[kept++].base_radius = base;
+    base = 0;
+  }
+  PathNode last = path.back();
+  begin_with(last.base_radius, path[kept - 1].radius);
+  while (kept > 1 && too_near(path[kept - 1], last)) base = path[--kept].base_radius;
+  last.base_radius = base;
+  path[kept++] = last;
   path.resize(kept);
   return count - kept;
 }

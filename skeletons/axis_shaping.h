@@ -12,6 +12,7 @@ struct PathNode {
   Vec3 position{0.0};
   double radius = 0;
   double at = 0;
+  double base_radius = 0;                  ///< as in AxisNode; kept by diffuse and merge_short only
 };
 using Path = std::vector<PathNode>;
 

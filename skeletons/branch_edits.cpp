@@ -39,11 +39,13 @@ void cut_axis(AxisTree& tree, std::size_t index, const Prune& prune, Profile pro
     if (lateral.attach.segment + lateral.attach.t >= place.segment + place.t) beyond[k] = any = true;
   }
   // One node at the plane keeps the taper; internodes that are cones of their own go through in one.
+  const std::size_t crossed = std::min<std::size_t>(place.segment + (place.t > 0 ? 1 : 0), axis.nodes.size() - 1);
+  const double base_radius = profile == Profile::kGalbraith ? axis.nodes[crossed].base_radius : 0;
   axis.nodes.resize(place.segment + 1);
   if (profile == Profile::kChain && place.t > 0) axis.nodes.push_back({point, radius});
   if (profile == Profile::kGalbraith && place.t <= 0 && place.segment > 0) axis.nodes.pop_back();
   // Straight on, far enough for the plane to meet the full section everywhere.
-  axis.nodes.push_back({point + tangent * (radius * (slope + 0.5)), radius});
+  axis.nodes.push_back({point + tangent * (radius * (slope + 0.5)), radius, base_radius});
   axis.cut = AxisCut{point, normal, along};
   report.notes.push_back("Cut " + name + " " + std::to_string(along) + " m along its axis.");
   if (any) remove_axes(tree, std::move(beyond));

@@ -123,7 +123,10 @@ class Conditioner {
       const double radius = node.radius > 0 ? std::min(std::max(node.radius, lowest), limit) : std::min(min_radius_, limit);
       if (radius != node.radius) ++report_.radii_clamped;
       node.radius = radius;
-      if (options_.enabled) limit = radius;
+      if (options_.enabled) {
+        if (node.base_radius > 0) node.base_radius = std::clamp(node.base_radius, radius, std::max(radius, limit));
+        limit = radius;
+      }
     }
   }
 
@@ -142,7 +145,7 @@ class Conditioner {
       if (smooth_ > 0) round_corners(path, 0.5 * smooth_, max_turn_);
     }
     axis.nodes.clear();
-    for (const PathNode& node : path) axis.nodes.push_back({node.position, node.radius});
+    for (const PathNode& node : path) axis.nodes.push_back({node.position, node.radius, node.base_radius});
     for (const std::uint32_t k : laterals_[i]) {
       AxisPlace& attach = axes_[k].attach;
       attach = place_of(path, attach.segment + attach.t);

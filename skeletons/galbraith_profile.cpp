@@ -134,18 +134,23 @@ class GalbraithProfile {
     return axes_[bearers_[i].axis].nodes[bearers_[i].node].position;
   }
 
+  double base_radius(std::size_t i, std::size_t node) const {
+    const double base = axes_[i].nodes[node].base_radius;
+    return base > 0 ? base : axes_[i].nodes[node - 1].radius;
+  }
+
   double delta_base(std::size_t i, std::size_t node, std::size_t siblings) const {
     if (siblings < 2) return 0;
     const bool lateral = node == 1 && axes_[i].parent >= 0;
     const double basal_radius = lateral ? axes_[bearers_[i].axis].nodes[bearers_[i].node].radius : axes_[i].nodes[node - 1].radius;
-    return std::max(0.0, basal_radius - axes_[i].nodes[node - 1].radius);
+    return std::max(0.0, basal_radius - base_radius(i, node));
   }
 
   double delta_tip(double radius, const std::vector<Child>& children) const {
     if (children.empty()) return 0;
     if (children.size() == 1) return kOneChild * axes_[children[0].axis].nodes[children[0].node].radius;
     double thickest = 0;
-    for (const Child& child : children) thickest = std::max(thickest, axes_[child.axis].nodes[child.node - 1].radius);
+    for (const Child& child : children) thickest = std::max(thickest, base_radius(child.axis, child.node));
     return kSeveral * thickest - radius;
   }
 
@@ -165,7 +170,7 @@ class GalbraithProfile {
   NodeId add_internode(std::size_t i, std::size_t node, std::size_t siblings, const std::vector<Child>& children,
                        double along, const Vec3& u_direction, const ScarRange& scars) {
     const Axis& axis = axes_[i];
-    const double radius_base = axis.nodes[node - 1].radius, radius_tip = axis.nodes[node].radius;
+    const double radius_base = base_radius(i, node), radius_tip = axis.nodes[node].radius;
     const Vec3 base = base_of(i, node), tip = axis.nodes[node].position, direction = direction_of(i, node);
     double length = glm::distance(base, tip);
     const bool is_cut = axis.cut && node + 1 == axis.nodes.size();
@@ -217,7 +222,7 @@ class GalbraithProfile {
     if (angle == 0 || before == Vec3(0.0) || !(length > 0)) return {};
     BendPlan plan = plan_bend(before, direction, angle);
     if (!(plan.angle > 0)) return {};
-    const double rb = axes_[i].nodes[node - 1].radius, rt = axes_[i].nodes[node].radius;
+    const double rb = base_radius(i, node), rt = axes_[i].nodes[node].radius;
     double support = kSupportPerRadius * std::min(rb, rt) + std::abs(rb - rt);
     if (!scars.empty()) support = std::max(support, 2.3 * std::max(rb, rt));
     const double largest_sine = length / (2 * 1.2 * support);  // keeps 20 % between the support and the centre

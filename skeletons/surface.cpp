@@ -44,7 +44,8 @@ Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
   SurfaceReport& report = made.report;
   for (const SkeletonNode& node : skeleton.nodes) report.internodes_in += node.parent >= 0 ? 1 : 0;
 
-  AxisTree tree = decompose_axes(skeleton, &report.nodes_dropped);
+  const RadiusSteps steps = options.profile == Profile::kChain ? RadiusSteps::kTaper : RadiusSteps::kKeep;
+  AxisTree tree = decompose_axes(skeleton, steps, &report.nodes_dropped);
   condition(tree, options.conditioning, options.profile, options.bend, report);
   apply_prunes(tree, options.prunes, options.profile, report);
   const std::vector<AxisFrame> frames = frames_of(tree);

@@ -57,7 +57,7 @@ TEST(Axes, CoincidentNodesAreMergedAndBadNumbersReplaced) {
   s.nodes = {node_at({0, 0, 0}, 1, -1), node_at({0, 0, 5}, 1, 0), node_at({0, 0, 5}, 1, 1),
              node_at({NAN, 0, 5}, NAN, 2), node_at({0, 0, 9}, 1, 3)};
   std::size_t merged = 0;
-  const AxisTree tree = decompose_axes(s, &merged);
+  const AxisTree tree = decompose_axes(s, RadiusSteps::kTaper, &merged);
   ASSERT_EQ(tree.axes.size(), 1u);
   EXPECT_EQ(tree.axes[0].nodes.size(), 3u);
   EXPECT_EQ(merged, 2u);

@@ -51,6 +51,20 @@ TEST(GalbraithProfile, SeveralChildrenStartAtTheirDeltasAndMeetInContact) {
   EXPECT_NEAR(made.tree.attributes(contact.children[1]).v_begin, 10.2, 1e-12);
 }
 
+TEST(GalbraithProfile, AnInternodeKeepsTheBaseRadiusThatItWasGiven) {
+  Skeleton s;  // cylinders of falling width, with a short one that conditioning merges
+  s.nodes = {node_at({0, 0, 0}, 0.5, -1), node_at({0, 0, 10}, 0.5, 0), node_at({0, 0, 10.5}, 0.4, 1), node_at({0, 0, 20}, 0.3, 2)};
+  s.nodes[1].base_radius = 0.5;
+  s.nodes[2].base_radius = 0.4;
+  s.nodes[3].base_radius = 0.3;
+  const Surfaced made = surface(s, galbraith());
+  const Sum& sum = std::get<Sum>(made.tree.node(made.tree.root()));
+  const Cone& b = std::get<Cone>(made.tree.node(sum.children[1]));
+  EXPECT_NEAR(b.base.z, 10, 1e-9);
+  EXPECT_EQ(b.radius_base, 0.4);
+  EXPECT_EQ(b.radius_tip, 0.3);
+}
+
 TEST(GalbraithProfile, WithoutRidgesEverythingIsSummed) {
   SurfaceOptions options = galbraith();
   options.ridges = false;
