@@ -19,7 +19,7 @@ void add_common(CLI::App& app, CommandLine& line) {
                  "a recipe (.tree.toml), L-system (.l), skeleton (.skel.json .swc .csv) or BlobTree (.blob.json)")
       ->required();
   app.add_option("--threads", line.threads, "threads to use; 0: all")->check(CLI::Range(0, 4096));
-  app.add_option("--seed", line.seed, "overrides the input's");
+  app.add_option("--seed", line.seed, "overrides the input's")->check(CLI::NonNegativeNumber);
   app.add_flag("--quiet", line.quiet, "print errors only");
   app.add_flag("--json", line.json, "one object of figures on stdout");
   app.add_option("--set", line.overrides, "key=value: overrides a recipe key, such as surface.lip=2 or prune.0.branch=3")
@@ -49,7 +49,7 @@ void declare(CLI::App& app, CommandLine& line) {
   CLI::App* mesh = add_command(app, line, Command::kMesh, "mesh", "a closed triangle mesh (.obj .ply .stl .off .glb)", true);
   CLI::Option* voxel = mesh->add_option("--voxel", line.voxel, "edge of a cell, such as 2mm");
   mesh->add_option("--tolerance", line.tolerance, "largest distance from the surface, such as 0.5mm")->excludes(voxel);
-  mesh->add_option("--max-triangles", line.max_triangles, "coarsen until it holds");
+  mesh->add_option("--max-triangles", line.max_triangles, "coarsen until it holds")->check(CLI::NonNegativeNumber);
   mesh->add_option("--up", line.up, "y or z (glTF is always y-up)");
   CLI::App* volume = add_command(app, line, Command::kVolume, "volume", "an OpenVDB grid (.vdb)", true);
   volume->add_option("--voxel", line.voxel, "edge of a voxel, such as 5mm");

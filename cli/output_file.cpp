@@ -9,8 +9,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <mutex>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
@@ -52,6 +54,15 @@ fs::path make_temporary(const fs::path& folder, const fs::path& target) {
   return name.data();
 }
 
+/// For devices and pipes, which std::filesystem does not copy to.
+void copy_bytes(const fs::path& from, const fs::path& to) {
+  std::ifstream source(from, std::ios::binary);
+  std::ofstream target(to, std::ios::binary);
+  if (source.peek() != std::ifstream::traits_type::eof()) target << source.rdbuf();
+  target.close();
+  if (!target) throw std::runtime_error(to.string() + " cannot be written");
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const fs::path& target) : target_(target) {
@@ -78,7 +89,7 @@ void OutputFile::commit() {
   Unfinished& all = unfinished();
   const std::lock_guard lock(all.mutex);
   if (in_place_) {
-    fs::copy_file(temporary_, target_, fs::copy_options::overwrite_existing);
+    copy_bytes(temporary_, target_);
     ::unlink(temporary_.c_str());
   } else {
     fs::rename(temporary_, target_);

@@ -19,7 +19,7 @@ class OutputFile {
   /// Where to write to.
   const std::filesystem::path& temporary() const { return temporary_; }
 
-  /// Moves what was written to the target. Errors: std::filesystem::filesystem_error.
+  /// Moves what was written to the target. Errors: std::exception naming the target.
   void commit();
 
   /// Ends the process at once; temporary files of this process that are not committed are removed first.

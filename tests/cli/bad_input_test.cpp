@@ -63,10 +63,10 @@ TEST_F(BadInput, FilesAreRefusedAtTheirPlace) {
       {"a.tree.toml", "[skeleton]\nfile = \"tiny.swc\"\n[bark]\ntexture = \"none.png\"\n", ":4:11: found no file"},
       // L-systems.
       {"a.l", "", ""},
-      {"a.l", "derivation length: 2\naxiom: F(\n", ":"},
-      {"a.l", "derivation length: 2\naxiom: F\nF --> F(1/0)\n", ":3:"},
-      {"a.l", "derivation length: 2\naxiom: F]\nF --> F\n", ":2:"},
-      {"a.l", "derivation length: x\naxiom: F\n", ":1:"},
+      {"a.l", "lsystem: x\nderivation length: 2\naxiom: F(\n", ":"},
+      {"a.l", "lsystem: x\nderivation length: 2\naxiom: F\nF --> F(1/0)\nendlsystem\n", ":4:"},
+      {"a.l", "lsystem: x\nderivation length: 2\naxiom: F]\nF --> F\nendlsystem\n", ":3:"},
+      {"a.l", "lsystem: x\nderivation length: x\naxiom: F\n", ":2:"},
       // Skeletons.
       {"a.skel.json", "{", ":1:"},
       {"a.skel.json", R"({"format":"cambium-skeleton","version":1,"nodes":[]})", ":1:"},

@@ -186,8 +186,9 @@ TEST_F(Commands, OutputIsTheSameForOneThreadAndTwo) {
 }
 
 TEST_F(Commands, SeedChangesAStochasticString) {
-  folder_.write("dice.l", "derivation length: 40\naxiom: A\nA --> FA : 1\nA --> fA : 1\n");
+  folder_.write("dice.l", "lsystem: dice\nderivation length: 40\naxiom: A\nA --> FA : 1\nA --> fA : 1\nendlsystem\n");
   const std::string first = run_program({"derive", at("dice.l"), "--seed", "1"}).out;
+  EXPECT_GT(first.size(), 40u);
   EXPECT_EQ(run_program({"derive", at("dice.l"), "--seed", "1", "--threads", "1"}).out, first);
   EXPECT_NE(run_program({"derive", at("dice.l"), "--seed", "2"}).out, first);
 }

@@ -51,7 +51,7 @@ TEST_F(Interrupt, EndsALongVolumeAndLeavesNothing) {
 }
 
 TEST_F(Interrupt, EndsALongDerivationAndLeavesNothing) {
-  const std::string input = folder_.write("long.l", "derivation length: 100000\naxiom: A(0)\nA(x) : x < 1e9 --> A(x+1)\n");
+  const std::string input = folder_.write("long.l", "lsystem: long\nderivation length: 100000\naxiom: A(0)\nA(x) : x < 1e9 --> A(x+1)\nendlsystem\n");
   expect_clean_end({"derive", input, "--set", "skeleton.steps=1000000"}, "a.txt", milliseconds(0));
 }
 

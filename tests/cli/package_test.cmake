@@ -30,7 +30,7 @@ target_link_libraries(renders PRIVATE cambium::raytrace)
 run(${CMAKE_COMMAND} -S ${WORK}/consumer -B ${WORK}/consumer/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/consumer/build)
-file(WRITE ${WORK}/tiny.l "derivation length: 2\naxiom: !(0.2)A\nA --> F(1)[+(50)!(0.1)F(0.6)]A\n")
+file(WRITE ${WORK}/tiny.l "lsystem: tiny\nderivation length: 2\naxiom: !(0.2)A\nA --> F(1)[+(50)!(0.1)F(0.6)]A\nendlsystem\n")
 run(${WORK}/consumer/build/example ${WORK}/tiny.l ${WORK}/tiny.ply)
 run(${WORK}/prefix/bin/cambium mesh ${WORK}/tiny.l -o ${WORK}/tiny.obj --voxel 4cm)
 foreach(made tiny.ply tiny.obj)

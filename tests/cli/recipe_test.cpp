@@ -87,7 +87,7 @@ TEST(Recipe, EveryPartIsRead) {
   ASSERT_EQ(recipe.surface.prunes.size(), 2u);
   EXPECT_EQ(recipe.surface.prunes[0].where.branch, 3u);
   EXPECT_EQ(recipe.surface.prunes[1].where.position, Vec3(0, 0.1, 2));
-  EXPECT_EQ(recipe.prunes_at[1].line, 22);
+  EXPECT_EQ(recipe.prunes_at[1].line, 23);
   ASSERT_EQ(recipe.surface.scars.size(), 1u);
   EXPECT_DOUBLE_EQ(recipe.surface.scars[0].angle, std::numbers::pi / 2);
   EXPECT_EQ(recipe.surface.random_scars.count, 12);
@@ -155,8 +155,8 @@ TEST(Recipe, MalformedOnesAreRefusedAtTheirPlace) {
       {"[render.camera]\nframe = [[0,0,0],[0,0,0]]", 2, 9, "an array of 2"},
       {"[mesh]\nvoxel = 0.1\ntolerance = 0.1", 3, 13, "the number 0.1"},
       {"[volume]\nkind = \"density\"", 2, 8, "the string 'density'"},
-      {"a = 1\na = 2", 2, 1, ""},
-      {"a = \"\xff\"", 1, 6, ""},
+      {"a = 1\na = 2", 2, 5, ""},
+      {"a = \"\xff\"", 1, 5, ""},
   };
   for (const Malformed& malformed : table) {
     SCOPED_TRACE(malformed.text);
