@@ -127,8 +127,8 @@ ScarPrimitives scar_primitives(const PlacedScar& scar, const Vec3& center, const
   // surface, so strengths in proportion to radius / axis_radius give every size of scar the same shape.
   const double relative = radius / axis_radius;
   ScarPrimitives made;
-  made.stub = {on_surface(-0.5 * radius), on_surface(0.5 * radius), 0.5 * radius, 0.6 * relative};
-  made.dent = {on_surface(-0.4 * radius), on_surface(0.4 * radius), 0.3 * radius, -1.6 * relative * scar.depth};
+  made.stub = {on_surface(-0.5 * radius), on_surface(0.5 * radius), 0.55 * radius, 0.6 * relative};
+  made.dent = {on_surface(-0.45 * radius), on_surface(0.45 * radius), 0.38 * radius, -1.05 * relative * scar.depth};
   return made;
 }
 
