@@ -30,6 +30,8 @@ const KeyRule<SkeletonRecipe> kSkeletonKeys[] = {
     {"step", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.step = v.positive_length(); }},
     {"angle", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.angle = v.degrees(); }},
     {"width", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.width = v.positive_length(); }},
+    {"width_unit", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.width_unit = v.positive_length(); }},
+    {"width_factor", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.width_factor = v.number(1e-3, 1); }},
     {"tropism", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.tropism = v.direction(); }},
     {"elasticity", [](const RecipeValue& v, SkeletonRecipe& s) { s.turtle.elasticity = v.number(-10, 10); }},
 };

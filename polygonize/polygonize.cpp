@@ -165,7 +165,7 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   const bool free_choice = !options.voxel && !options.tolerance;
   if (options.max_triangles && *options.max_triangles == 0) throw InputError({}, "a limit of 0 triangles", "at least 1");
   std::optional<std::size_t> limit = options.max_triangles;
-  if (!limit && free_choice) limit = kDefaultMaxTriangles;
+  if (!limit && free_choice) limit = kMostTriangles;
   // Start near a limit and not far beyond it: the estimate counts overlaps twice, so it may be cut by half.
   if (limit) voxel = std::max(voxel, 0.5 * voxel_for_triangles(atoms.area, static_cast<double>(*limit)));
 

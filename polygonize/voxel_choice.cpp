@@ -10,6 +10,7 @@ namespace cambium {
 namespace {
 
 constexpr double kVoxelsPerThinnest = 0.7;      // a twig is then nearly three cells thick
+constexpr double kMostVoxelsPerThinnest = 1.1;  // the coarsest that still keeps it whole (1 / kThinInVoxels is 1.15)
 constexpr double kThinInVoxels = 0.87;          // half a cell's diagonal: a thinner twig may pass between all corners
 constexpr double kTrianglesPerCellArea = 3;
 
@@ -46,7 +47,9 @@ double choose_voxel(const Field& field, const AtomSummary& atoms, const Polygoni
   const double across = glm::length(field.bounds().size());
   if (!std::isfinite(atoms.thinnest_radius)) return across / 200;
   const double resolving = kVoxelsPerThinnest * atoms.thinnest_radius;
-  return std::max(resolving, voxel_for_triangles(atoms.area, static_cast<double>(kDefaultMaxTriangles)));
+  const double wanted = std::max(resolving, voxel_for_triangles(atoms.area, static_cast<double>(kDefaultMaxTriangles)));
+  const double coarsest = kMostVoxelsPerThinnest * atoms.thinnest_radius;
+  return wanted <= coarsest ? wanted : std::max(coarsest, voxel_for_triangles(atoms.area, static_cast<double>(kMostTriangles)));
 }
 
 void report_thin_primitives(const Field& field, PolygonizeReport& report) {

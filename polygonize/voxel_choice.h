@@ -7,7 +7,8 @@
 namespace cambium {
 
 /// What a mesh without any limit given may grow to.
-inline constexpr std::size_t kDefaultMaxTriangles = 6'000'000;
+inline constexpr std::size_t kDefaultMaxTriangles = 6'000'000;  ///< wanted, where that keeps every twig whole
+inline constexpr std::size_t kMostTriangles = 40'000'000;       ///< allowed, to keep every twig whole
 
 struct AtomSummary {
   double thinnest_radius = kInfinity;   ///< metres
@@ -22,7 +23,8 @@ AtomSummary summarise_atoms(const Field& field);
 double expected_triangles(double area, double voxel);
 double voxel_for_triangles(double area, double triangles);
 
-/// options.voxel, else twice options.tolerance, else 0.7 of the thinnest radius, as far as kDefaultMaxTriangles goes.
+/// options.voxel, else twice options.tolerance, else 0.7 of the thinnest radius; coarser for kDefaultMaxTriangles, but beyond what
+/// keeps the thinnest twig whole only for kMostTriangles.
 /// Errors: InputError for a voxel or tolerance that is not a length.
 double choose_voxel(const Field& field, const AtomSummary& atoms, const PolygonizeOptions& options);
 

@@ -39,7 +39,7 @@ TEST(VoxelChoice, AThinTwigOnAGreatTrunkDoesNotAskForAHugeMesh) {
   const AtomSummary atoms = summarise_atoms(field);
   const double voxel = choose_voxel(field, atoms, {});
   EXPECT_GT(voxel, 0.002);
-  EXPECT_LE(expected_triangles(atoms.area, voxel), 1.0001 * kDefaultMaxTriangles);
+  EXPECT_LE(expected_triangles(atoms.area, voxel), 1.0001 * kMostTriangles);
   PolygonizeReport report;
   report.voxel = voxel;
   report_thin_primitives(field, report);
@@ -47,6 +47,19 @@ TEST(VoxelChoice, AThinTwigOnAGreatTrunkDoesNotAskForAHugeMesh) {
   EXPECT_NEAR(report.thinnest_radius, 0.001, 1e-12);
   EXPECT_GT(report.thin_length, 2);
   EXPECT_LT(report.thin_length, 2.1);
+}
+
+TEST(VoxelChoice, TwigsStayWholeWhereThatIsAffordable) {
+  BlobTreeBuilder builder;
+  const NodeId trunk = builder.add(Capsule{Vec3(0), Vec3(0, 0, 20), 0.8, 1});
+  const NodeId twig = builder.add(Capsule{Vec3(0, 0, 20), Vec3(0, 0, 22), 0.005, 1});
+  const NodeId root = builder.add(Union{{trunk, twig}});
+  const Field field(builder.build(root));
+  PolygonizeReport report;
+  report.voxel = choose_voxel(field, summarise_atoms(field), {});
+  EXPECT_GT(report.voxel, 0.7 * 0.005);  // finer than the wanted number of triangles allows
+  report_thin_primitives(field, report);
+  EXPECT_EQ(report.thin_primitives, 0u);
 }
 
 }  // namespace
