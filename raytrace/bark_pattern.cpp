@@ -108,7 +108,7 @@ BarkTexel young(double scale, double u, double v, double unit, std::uint64_t see
   BarkTexel out;
   out.mark = lenticels(x, y, around, seed ^ 33, 0.5, 0.20, 0.10) * kept(0.2 * width, footprint);
   out.height = 0.93 + 0.07 * lerp(0.5, grain, kept(0.2 * width, footprint)) - 0.25 * out.mark;
-  out.shade = (0.86 + 0.28 * blotch) * (0.94 + 0.12 * lerp(0.5, grain, kept(0.2 * width, footprint)));
+  out.shade = (0.86 + 0.28 * lerp(0.5, blotch, kept(width, footprint))) * (0.94 + 0.12 * lerp(0.5, grain, kept(0.2 * width, footprint)));
   return out;
 }
 

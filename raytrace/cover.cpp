@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cambium {
@@ -124,6 +125,31 @@ std::optional<std::vector<PrunedField>> cover_surface(const Field& field, const 
     level = std::move(next);
   }
   return leaves;
+}
+
+std::vector<Box> surface_boxes(const std::vector<PrunedField>& cells) {
+  const int parts = std::clamp(static_cast<int>(std::cbrt(200000.0 / std::max<std::size_t>(cells.size(), 1))), 1, 24);
+  std::vector<std::vector<Box>> found(cells.size());
+  tbb::enumerable_thread_specific<Evaluator> evaluators;
+  tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
+    const Box& cell = cells[i].box();
+    if (parts == 1) {
+      found[i] = {cell};
+      return;
+    }
+    Box tight;
+    const Vec3 size = cell.size() / double(parts);
+    for (int k = 0; k < parts * parts * parts; ++k) {
+      const Vec3 lo = cell.lo + size * Vec3(k % parts, k / parts % parts, k / (parts * parts));
+      const Box part{lo, lo + size};
+      const Interval range = evaluators.local().interval(cells[i], part);
+      if (range.hi >= kIso && range.lo <= kIso) tight.extend(part);
+    }
+    if (!tight.empty()) found[i] = {tight};
+  });
+  std::vector<Box> boxes;
+  for (const auto& of_cell : found) boxes.insert(boxes.end(), of_cell.begin(), of_cell.end());
+  return boxes;
 }
 
 }  // namespace cambium

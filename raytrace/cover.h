@@ -22,4 +22,8 @@ struct CoverOptions {
 /// field.bounds(). nullopt if cancelled. The same for any thread count. Cost: cells x active primitives x depth.
 std::optional<std::vector<PrunedField>> cover_surface(const Field& field, const CoverOptions& options, const RunOptions& run);
 
+/// Boxes that hold the surface more tightly than the cells' own, for framing: each cell is cut into equal parts, finer the fewer
+/// cells there are, and parts without surface are left out. In the cells' order. Cost: at most about 200,000 intervals.
+std::vector<Box> surface_boxes(const std::vector<PrunedField>& cells);
+
 }  // namespace cambium

@@ -204,13 +204,9 @@ std::optional<Rendered> render_in_arena(const Field& field, const RenderOptions&
   if (!cells) return std::nullopt;
   out.report.cells = cells->size();
 
-  std::vector<Box> boxes;
-  boxes.reserve(cells->size());
+  std::vector<Box> boxes = surface_boxes(*cells);
   Box whole;
-  for (const PrunedField& cell : *cells) {
-    boxes.push_back(cell.box());
-    whole.extend(cell.box());
-  }
+  for (const Box& box : boxes) whole.extend(box);
   std::optional<Ground> ground;
   if (options.light.ground) ground = {options.light.ground_height.value_or(ground_height(field, *cells)), 1.0};
   if (ground && !whole.empty()) {
