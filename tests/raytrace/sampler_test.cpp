@@ -1,0 +1,48 @@
+#include "raytrace/sampler.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace cambium {
+namespace {
+
+TEST(PixelSampler, EverySixteenAreStratifiedInBothDimensionsAndInSquares) {
+  for (int pixel = 0; pixel < 20; ++pixel) {
+    for (Use use : {Use::kPixel, Use::kSun, Use::kSky}) {
+      std::set<int> columns, rows, squares;
+      for (std::uint32_t s = 0; s < 16; ++s) {
+        const auto [a, b] = PixelSampler(5, pixel, 3).pair(s, use);
+        ASSERT_TRUE(a >= 0 && a < 1 && b >= 0 && b < 1);
+        columns.insert(int(16 * a));
+        rows.insert(int(16 * b));
+        squares.insert(int(4 * a) * 4 + int(4 * b));
+      }
+      EXPECT_EQ(columns.size(), 16u);
+      EXPECT_EQ(rows.size(), 16u);
+      EXPECT_EQ(squares.size(), 16u);
+    }
+  }
+}
+
+TEST(PixelSampler, TheFirstFourLieInFourQuarters) {
+  for (int pixel = 0; pixel < 50; ++pixel) {
+    std::set<int> quarters;
+    for (std::uint32_t s = 0; s < 4; ++s) {
+      const auto [a, b] = PixelSampler(5, 1, pixel).pair(s, Use::kSky);
+      quarters.insert(int(2 * a) * 2 + int(2 * b));
+    }
+    EXPECT_EQ(quarters.size(), 4u);
+  }
+}
+
+TEST(PixelSampler, IsAPureFunctionThatDiffersBetweenPixelsUsesAndSeeds) {
+  const auto at = [](std::uint64_t seed, int x, Use use) { return PixelSampler(seed, x, 2).pair(0, use); };
+  EXPECT_EQ(at(1, 1, Use::kSun), at(1, 1, Use::kSun));
+  EXPECT_NE(at(1, 1, Use::kSun), at(1, 2, Use::kSun));
+  EXPECT_NE(at(1, 1, Use::kSun), at(1, 1, Use::kSky));
+  EXPECT_NE(at(1, 1, Use::kSun), at(2, 1, Use::kSun));
+}
+
+}  // namespace
+}  // namespace cambium
