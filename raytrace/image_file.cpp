@@ -61,6 +61,7 @@ void write_pixels(const Pixels& pixels, const std::vector<std::string>& channel_
     spec.attribute("oiio:ColorSpace", "sRGB");
   } else {
     spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the clock's: the same picture is the same file
     spec.attribute("oiio:ColorSpace", "Linear");
   }
   if (!output->open(path.string(), spec)) throw std::runtime_error("cannot write " + path.string() + ": " + first_line(output->geterror()));

@@ -34,6 +34,12 @@ struct PixelSum {
   float depth = 0, branch = -1;
   float shown = 0, shown_squared = 0;  // displayed luminance without the sky's noise
   std::uint16_t hits = 0, samples = 0;
+
+  /// Standard error of the displayed luminance.
+  double error() const {
+    const double n = samples, mean = shown / n;
+    return std::sqrt(std::max(0.0, shown_squared / n - mean * mean) / n);
+  }
 };
 
 class Progress {
@@ -86,15 +92,17 @@ class Frame {
     tbb::parallel_for(0, options_.height, [&](int y) {
       for (int x = 0; x < options_.width; ++x) {
         const PixelSum& sum = sums_[index(x, y)];
-        const double n = sum.samples, mean = sum.shown / n;
-        const double error = std::sqrt(std::max(0.0, sum.shown_squared / n - mean * mean) / n);
-        bool edge = error > 0.5 * kContrast;
-        for (int dy = -1; dy <= 1 && !edge; ++dy) {
-          for (int dx = -1; dx <= 1 && !edge; ++dx) {
+        const double mean = sum.shown / sum.samples;
+        bool edge = false;
+        // Where a pixel's own samples disagree, its neighbours two away may only have been lucky: the rim of a soft shadow.
+        for (int dy = -2; dy <= 2 && !edge; ++dy) {
+          for (int dx = -2; dx <= 2 && !edge; ++dx) {
             const int nx = x + dx, ny = y + dy;
             if (nx < 0 || ny < 0 || nx >= options_.width || ny >= options_.height) continue;
             const PixelSum& other = sums_[index(nx, ny)];
-            edge = std::abs(other.shown / other.samples - mean) > kContrast || (other.hits == 0) != (sum.hits == 0);
+            edge = other.error() > 0.5 * kContrast;
+            if (std::abs(dx) > 1 || std::abs(dy) > 1) continue;
+            edge |= std::abs(other.shown / other.samples - mean) > kContrast || (other.hits == 0) != (sum.hits == 0);
           }
         }
         wanted[index(x, y)] = edge;
