@@ -10,11 +10,15 @@
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/SignedFloodFill.h>
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <fstream>
 #include <mutex>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace cambium {
 namespace {
@@ -97,11 +101,31 @@ Grid::Ptr make_grid(const Field& field, const VolumeOptions& options, const RunO
   return grid;
 }
 
+/// OpenVDB gives every file a random identifier, 36 characters after a header of 21 bytes. Ours is drawn from the content, so that
+/// the same volume is the same file.
+void name_by_content(const std::filesystem::path& path) {
+  constexpr std::streamoff kBegin = 21, kLength = 36;
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekg(kBegin + kLength);
+  std::uint64_t hash[2] = {0xcbf29ce484222325u, 0x84222325cbf29ce4u};
+  std::vector<char> block(1 << 16);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())), file.gcount() > 0)
+    for (std::streamsize i = 0; i < file.gcount(); ++i)
+      for (std::uint64_t& h : hash) h = (h ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) * 0x100000001b3u;
+  std::string id = fmt::format("{:016x}{:016x}", hash[0], hash[1]);
+  for (const std::size_t at : {8u, 13u, 18u, 23u}) id.insert(at, "-");
+  file.clear();
+  file.seekp(kBegin);
+  file.write(id.data(), kLength);
+  if (!file.flush()) throw std::runtime_error("the file's identifier could not be written");
+}
+
 void write_grid(Grid::Ptr grid, const std::filesystem::path& path) {
   openvdb::io::File file(path.string());
   file.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK | openvdb::io::COMPRESS_BLOSC);
   file.write(openvdb::GridPtrVec{grid});
   file.close();
+  name_by_content(path);
 }
 
 }  // namespace

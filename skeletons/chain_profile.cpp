@@ -73,9 +73,18 @@ class ChainProfile {
     return made;
   }
 
+  /// Where a lateral starts along its own path. field.md has 2.2 r - R, which keeps its support off the far side of the axis only
+  /// above 35 degrees or so: at 20 degrees and r = R the far side would bulge by 5.9 %. Less than 1.75 r - R away from the axis
+  /// it is too near at any angle (the numbers are in junction_field_test.cpp).
   double delta_of(const Axis& axis) const {
+    constexpr double kClearance = 1.75, kFarthestRadii = 4;
     if (axis.parent < 0) return 0;
-    return std::max(0.0, kSupportPerRadius * axis.nodes[0].radius - radius_at(axes_[axis.parent], axis.attach));
+    const Axis& parent = axes_[axis.parent];
+    const double r = axis.nodes[0].radius, parent_radius = radius_at(parent, axis.attach);
+    const double sine = glm::length(glm::cross(segment_direction(axis, 0), tangent_at(parent, axis.attach)));
+    const double away = kClearance * r - parent_radius, farthest = kFarthestRadii * parent_radius;
+    const double steep = away <= 0 ? 0.0 : away < farthest * sine ? away / sine : farthest;
+    return std::max({0.0, kSupportPerRadius * r - parent_radius, steep});
   }
 
   /// The axis from delta on; no nodes if it is shorter.

@@ -40,12 +40,10 @@ double far_side_bulge(const Field& field, double fork_height) {
   return largest;
 }
 
-// With the delta of field.md a lateral of nearly the axis's radius at less than 35 degrees starts so near the axis that
-// contact lifts the far side: 5.9 % at 20 degrees for equal radii. Those cases are left out here.
+// With the delta of field.md alone this would be 5.9 % at 20 degrees for equal radii, 2.7 % at 30.
 TEST(JunctionField, TheFarSideOfAForkBulgesByLessThanTwoPercent) {
-  for (const double ratio : {0.3, 0.5, 0.7, 0.85, 1.0})
-    for (const double angle : {20.0, 25.0, 35.0, 50.0, 65.0, 80.0}) {
-      if (ratio > 0.7 && angle < 35) continue;
+  for (const double ratio : {0.3, 0.5, 0.7, 0.8, 0.9, 1.0})
+    for (const double angle : {20.0, 25.0, 30.0, 35.0, 40.0, 50.0, 65.0, 80.0}) {
       const Field field(surface(fork_tree(1, ratio, angle, 20), {}).tree);
       EXPECT_LT(far_side_bulge(field, 20), 0.02) << ratio << " at " << angle << " degrees";
     }
