@@ -146,12 +146,11 @@ Vec3 Bark::shading_normal(Evaluator& evaluator, const PrunedField& field, const 
   const double step = std::clamp(0.5 * footprint, 2e-3 * field.smallest_radius(), 0.3 * field.smallest_radius());
   const Vec3 side = std::abs(normal.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
   const Vec3 s = glm::normalize(glm::cross(side, normal)), t = glm::cross(normal, s);
-  // Away from the centre, towards the cell's inside: its field is exact only in its box.
-  const auto inwards = [&](const Vec3& d) { return field.box().contains(p + step * d) ? step : -step; };
-  const double hs = inwards(s), ht = inwards(t);
+  // Just outside its box the pruned field lacks only what is about to fade in, so differences may reach across: turning them
+  // round at the box would draw its outline on the bark.
   const double here = relief_at(evaluator, field, p, footprint).relief;
-  const double ds = (relief_at(evaluator, field, p + hs * s, footprint).relief - here) / hs;
-  const double dt = (relief_at(evaluator, field, p + ht * t, footprint).relief - here) / ht;
+  const double ds = (relief_at(evaluator, field, p + step * s, footprint).relief - here) / step;
+  const double dt = (relief_at(evaluator, field, p + step * t, footprint).relief - here) / step;
   const double slope = std::hypot(ds, dt), limit = 1.1;
   const double scale = slope > limit ? limit / slope : 1;
   return glm::normalize(normal - scale * (ds * s + dt * t));

@@ -20,7 +20,7 @@ struct Camera {
 
 struct Light {
   double sun_azimuth = -0.7, sun_elevation = 0.75;  ///< radians
-  double sun_size = 0.02;                           ///< angular radius, radians
+  double sun_size = 0.01;                           ///< angular radius, radians
   Vec3 sun_color{2.7, 2.45, 2.05};                   ///< linear
   Vec3 sky_zenith{0.24, 0.42, 0.80}, sky_horizon{0.72, 0.80, 0.90};
   Vec3 ground_color{0.20, 0.185, 0.135};

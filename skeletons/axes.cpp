@@ -64,7 +64,7 @@ std::int64_t continuation(const std::vector<SkeletonNode>& nodes, const ChildLis
   return best;
 }
 
-/// Appends the internode to `node`: a step in radius at its base becomes a short taper.
+/// Appends the internode to `node`. A step in radius at its base becomes a taper over the internode, or is kept.
 void append_internode(Axis& axis, const SkeletonNode& node, bool first_of_lateral, RadiusSteps steps,
                      std::size_t& merged) {
   const AxisNode last = axis.nodes.back();
@@ -74,12 +74,6 @@ void append_internode(Axis& axis, const SkeletonNode& node, bool first_of_latera
     return;
   }
   const bool step = !first_of_lateral && node.base_radius && *node.base_radius < 0.98 * last.radius;
-  if (step && steps == RadiusSteps::kTaper) {
-    const double taper = std::min(0.5 * length, std::max(4 * (last.radius - *node.base_radius), 0.6 * last.radius));
-    const double t = taper / length;
-    axis.nodes.push_back({glm::mix(last.position, node.position, t),
-                          *node.base_radius + t * (node.radius - *node.base_radius)});
-  }
   axis.nodes.push_back({node.position, node.radius, step && steps == RadiusSteps::kKeep ? *node.base_radius : 0});
 }
 

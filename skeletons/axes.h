@@ -17,7 +17,7 @@ struct AxisNode {
 
 /// What becomes of an internode that begins thinner than its parent ends.
 enum class RadiusSteps {
-  kTaper,                                  ///< a node more, so that the step is a short taper
+  kTaper,                                  ///< it tapers from the radius before: a short ledge at every node would show as a ring
   kKeep,                                   ///< AxisNode::base_radius is set
 };
 

@@ -63,14 +63,17 @@ TEST(Axes, CoincidentNodesAreMergedAndBadNumbersReplaced) {
   EXPECT_EQ(merged, 2u);
 }
 
-TEST(Axes, AThinnerBaseRadiusBecomesAShortTaper) {
+TEST(Axes, AThinnerBaseRadiusBecomesATaperOrIsKept) {
   Skeleton s;
   s.nodes = {node_at({0, 0, 0}, 1, -1), node_at({0, 0, 10}, 1, 0), node_at({0, 0, 20}, 0.8, 1)};
   s.nodes[2].base_radius = 0.8;
-  const Axis axis = decompose_axes(s).axes[0];
-  ASSERT_EQ(axis.nodes.size(), 4u);
-  EXPECT_NEAR(axis.nodes[2].position.z, 10.8, 1e-12);
-  EXPECT_DOUBLE_EQ(axis.nodes[2].radius, 0.8);
+  const Axis tapered = decompose_axes(s, RadiusSteps::kTaper).axes[0], kept = decompose_axes(s, RadiusSteps::kKeep).axes[0];
+  ASSERT_EQ(tapered.nodes.size(), 3u);
+  EXPECT_DOUBLE_EQ(tapered.nodes[1].radius, 1);
+  EXPECT_DOUBLE_EQ(tapered.nodes[2].radius, 0.8);
+  EXPECT_EQ(tapered.nodes[2].base_radius, 0);
+  ASSERT_EQ(kept.nodes.size(), 3u);
+  EXPECT_DOUBLE_EQ(kept.nodes[2].base_radius, 0.8);
 }
 
 TEST(Axes, RemovingAnAxisRemovesWhatItBears) {
