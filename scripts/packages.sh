@@ -6,7 +6,7 @@ packages=(
   build-essential cmake ninja-build ccache
   libglm-dev libtbb-dev libfmt-dev
   libopenmesh-dev libtinygltf-dev nlohmann-json3-dev libopenvdb-dev libboost-dev
-  libembree-dev libopenimageio-dev libhwy-dev
+  libembree-dev libopenimageio-dev
   libcli11-dev libtomlplusplus-dev
   libgtest-dev libgmock-dev libbenchmark-dev python3 python3-openvdb
 )
