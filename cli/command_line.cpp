@@ -20,6 +20,7 @@ void add_common(CLI::App& app, CommandLine& line) {
       ->required();
   app.add_option("--threads", line.threads, "threads to use; 0: all")->check(CLI::Range(0, 4096));
   app.add_option("--seed", line.seed, "overrides the input's")->check(CLI::NonNegativeNumber);
+  app.add_option("--lsystem", line.label, "which L-system of the file, by its label; else the first");
   app.add_flag("--quiet", line.quiet, "print errors only");
   app.add_flag("--json", line.json, "one object of figures on stdout");
   app.add_option("--set", line.overrides, "key=value: overrides a recipe key, such as surface.lip=2 or prune.0.branch=3")

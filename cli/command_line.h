@@ -18,6 +18,7 @@ struct CommandLine {
   std::string input, output;
   int threads = 0;
   std::optional<std::uint64_t> seed;
+  std::optional<std::string> label;          ///< of --lsystem
   bool quiet = false, json = false;
   std::vector<std::string> overrides;        ///< of --set
   std::string points;                        ///< eval

@@ -33,7 +33,7 @@ Outcome run_derive(Job& job) {
     throw InputError({job.source.string()}, "no L-system", "an L-system (.l), or a recipe with lsystem = \"...\"");
   std::optional<OutputFile> output;
   if (!job.line.output.empty()) output.emplace(job.line.output);
-  const LSystem system = LSystem::load(job.source);
+  const LSystem system = LSystem::load(job.source, job.recipe.skeleton.label);
   const auto string = derive_string(job, system);
   if (!string) return Outcome::kInterrupted;
   if (output || !job.line.json) {

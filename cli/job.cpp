@@ -69,6 +69,7 @@ Job::Job(const CommandLine& command_line, const std::atomic<bool>& cancel)
   recipe = kind == InputKind::kRecipe ? read_recipe(line.input, line.overrides) : empty_recipe(line.input, line.overrides);
   source_kind = kind;
   find_source(*this);
+  if (line.label) recipe.skeleton.label = line.label;
   if (line.seed) {
     recipe.skeleton.seed = line.seed;
     recipe.surface.seed = *line.seed;
@@ -98,7 +99,7 @@ std::optional<Skeleton> grow_skeleton(Job& job) {
     const StageTimer timer(job.figures, "read");
     return read_skeleton(job.source);
   }
-  const LSystem system = LSystem::load(job.source);
+  const LSystem system = LSystem::load(job.source, job.recipe.skeleton.label);
   const auto string = derive_string(job, system);
   if (!string || job.run.cancelled()) return std::nullopt;
   return walk_turtle(job, *string, system);

@@ -24,6 +24,7 @@ const KeyRule<SkeletonRecipe> kSkeletonKeys[] = {
      }},
     {"graph", [](const RecipeValue& v,
                  SkeletonRecipe&) { v.refuse("lsystem or file: growing on a graph is not available in this version"); }},
+    {"label", [](const RecipeValue& v, SkeletonRecipe& s) { s.label = v.text(); }},
     {"steps", [](const RecipeValue& v, SkeletonRecipe& s) { s.steps = static_cast<int>(v.integer(0, 1'000'000)); }},
     {"seed",
      [](const RecipeValue& v, SkeletonRecipe& s) { s.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},

@@ -57,6 +57,17 @@ TEST_F(Commands, DerivePrintsTheStringWithoutOutput) {
   EXPECT_EQ(ran.err, "");
 }
 
+TEST_F(Commands, DeriveRunsTheLSystemThatIsNamed) {
+  folder_.write("two.l",
+                "lsystem: first\nderivation length: 0\naxiom: A\nendlsystem\nlsystem: second\nderivation length: 0\naxiom: B\nendlsystem\n");
+  EXPECT_EQ(run_program({"derive", at("two.l")}).out, "A\n");
+  EXPECT_EQ(run_program({"derive", at("two.l"), "--lsystem", "second"}).out, "B\n");
+  EXPECT_EQ(run_program({"derive", at("two.l"), "--set", "skeleton.label=second"}).out, "B\n");
+  const Ran ran = run_program({"derive", at("two.l"), "--lsystem", "third"});
+  EXPECT_EQ(ran.status, 2);
+  EXPECT_NE(ran.err.find("no L-system 'third'"), std::string::npos) << ran.err;
+}
+
 TEST_F(Commands, GrowWritesASkeletonThatReadsBack) {
   for (const char* input : {"tiny.l", "tiny.tree.toml", "tiny.skel.json", "tiny.swc", "tiny.csv"})
     for (const char* output : {"grown.skel.json", "grown.swc"}) {
