@@ -160,9 +160,11 @@ static Stretch stretch_of(const BendWarp& w, const Ball& ball) {
   const Polar q = polar(w, ball.center);
   // Opposite the arc the two rigid continuations meet: W^-1 jumps there.
   const double to_cut = q.y < 0 ? std::abs(q.x) : q.r;
-  if (to_cut <= ball.radius || q.r < w.inner) return {1, false};
+  if (to_cut <= ball.radius) return {1, false};
   const double nearest = q.r - ball.radius;
+  if (nearest > 0.25 * w.rho) return {std::max(1.0, w.rho / nearest), true};
   // Around the arc's centre a path may be pushed out to w.inner, at most pi/2 longer; inside that the child is 0.
+  if (q.r < w.inner) return {1, false};
   double factor = 0.5 * std::numbers::pi * w.rho / w.inner;
   if (nearest > 0) factor = std::min(factor, w.rho / nearest);
   return {std::max(1.0, factor), nearest >= w.inner};
