@@ -8,7 +8,7 @@ namespace cambium {
 
 /// What a mesh without any limit given may grow to.
 inline constexpr std::size_t kDefaultMaxTriangles = 6'000'000;  ///< wanted, where that keeps every twig whole
-inline constexpr std::size_t kMostTriangles = 40'000'000;       ///< allowed, to keep every twig whole
+inline constexpr std::size_t kMostTriangles = 150'000'000;      ///< allowed, to keep every twig whole (some 10 GB)
 
 struct AtomSummary {
   double thinnest_radius = kInfinity;   ///< metres

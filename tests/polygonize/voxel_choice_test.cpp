@@ -38,7 +38,7 @@ TEST(VoxelChoice, AThinTwigOnAGreatTrunkDoesNotAskForAHugeMesh) {
   const Field field(builder.build(root));
   const AtomSummary atoms = summarise_atoms(field);
   const double voxel = choose_voxel(field, atoms, {});
-  EXPECT_GT(voxel, 0.002);
+  EXPECT_GT(voxel, 0.0012);
   EXPECT_LE(expected_triangles(atoms.area, voxel), 1.0001 * kMostTriangles);
   PolygonizeReport report;
   report.voxel = voxel;
