@@ -77,7 +77,7 @@ struct Surfaced {
 };
 
 /// Never fails on a valid skeleton with at least one internode. Deterministic for a seed.
-/// Errors: InputError (location = `at`) for an empty skeleton, or a prune or scar that names no branch.
+/// Errors: InputError without a location (the caller knows the file) for an empty skeleton, or a prune or scar that names no branch.
 Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options);
 
 }  // namespace cambium
