@@ -70,8 +70,7 @@ struct LocalShapes {
 template <class N, class T>
 class LanePolicy {
  public:
-  LanePolicy(const CompiledTree& tree, const PrunedField& field, const LocalShapes<T>& shapes)
-      : tree_(tree), field_(field), shapes_(shapes) {}
+  LanePolicy(const TapeView& view, const LocalShapes<T>& shapes) : tree_(view.tree), view_(view), shapes_(shapes) {}
 
   void place(const std::vector<Vec<T>>& points, const std::vector<Vec3>& warped_from) {
     points_ = points.data();
@@ -111,14 +110,14 @@ class LanePolicy {
     if constexpr (std::is_floating_point_v<N>) {
       return f;
     } else {
-      const Warp& w = Evaluator::Scratch::warp_of_frame(field_, in.frame);
+      const Warp& w = view_.warp_of(in.frame);
       return N(f.f, Vec<T>(pull_back(w, warped_from_[in.frame], Vec3(f.g))));
     }
   }
 
  private:
   const CompiledTree& tree_;
-  const PrunedField& field_;
+  const TapeView& view_;
   const LocalShapes<T>& shapes_;
   const Vec<T>* points_ = nullptr;
   const Vec3* warped_from_ = nullptr;
@@ -134,7 +133,7 @@ bool fits_in_float(const TapeView& view, const Box& box, bool warped) {
   for (const Instruction& in : view.tape) {
     const CompiledNode& n = view.tree.nodes[in.node];
     if (n.op == Op::kPrimitive && static_cast<Op>(in.op) == Op::kPrimitive) {
-      const CompiledPrimitive& p = view.tree.primitives[n.payload];
+      const CompiledPrimitive p = view.tree.primitive_of(n);
       const double size = half + std::visit([](const auto& shape) { return extent(shape); }, p.shape);
       if (size * p.inverse_support > kLargestRatio) return false;
     } else if (n.op == Op::kHalfSpace) {
@@ -151,15 +150,15 @@ bool fits_in_float(const TapeView& view, const Box& box, bool warped) {
 }
 
 template <class N, class T>
-void run_batch(const TapeView& view, const PrunedField& field, const std::vector<std::uint32_t>& frames, TapeScratch<N>& scratch,
+void run_batch(const TapeView& view, const Vec3& origin_of_box, TapeScratch<N>& scratch,
                std::span<const float> x, std::span<const float> y, std::span<const float> z, const auto& store) {
   const CompiledTree& tree = view.tree;
-  const std::size_t frame_count = 1 + frames.size() / 2;
+  const std::size_t frame_count = view.frame_count();
   std::vector<Vec3> origins(frame_count), warped_from(frame_count), placed(frame_count);
   std::vector<Vec<T>> points(frame_count);
-  origins[0] = field.origin();
+  origins[0] = origin_of_box;
   for (std::size_t k = 1; k < frame_count; ++k)
-    origins[k] = unwarp(Evaluator::Scratch::warp_of_frame(field, k), origins[frames[2 * (k - 1) + 1]]);
+    origins[k] = unwarp(view.warp_of(k), origins[view.outside_of(k)]);
 
   LocalShapes<T> shapes;
   for (const Instruction& in : view.tape) {
@@ -167,7 +166,7 @@ void run_batch(const TapeView& view, const PrunedField& field, const std::vector
     const Vec3& origin = origins[in.frame];
     switch (static_cast<Op>(in.op)) {
       case Op::kPrimitive: {
-        const CompiledPrimitive& p = tree.primitives[n.payload];
+        const CompiledPrimitive p = tree.primitive_of(n);
         shapes.primitives.push_back({std::visit([&](const auto& s) -> SkeletonShape<T> { return localised<T>(s, origin); }, p.shape),
                                      T(p.inverse_support), T(p.strength)});
         break;
@@ -180,7 +179,7 @@ void run_batch(const TapeView& view, const PrunedField& field, const std::vector
       }
       case Op::kChain:
         for (std::uint32_t i = in.first; i < in.first + in.count; ++i)
-          shapes.segments.push_back(localised<T>(tree.segments[tree.atoms[view.slots[i]].segment], origin));
+          shapes.segments.push_back(localised<T>(tree.segment_of(view.slots[i]), origin));
         break;
       case Op::kFork:
         for (std::uint32_t i = in.first; i < in.first + in.count; ++i)
@@ -191,14 +190,14 @@ void run_batch(const TapeView& view, const PrunedField& field, const std::vector
     }
   }
 
-  LanePolicy<N, T> policy(tree, field, shapes);
+  LanePolicy<N, T> policy(view, shapes);
   for (std::size_t i = 0; i < x.size(); ++i) {
     points[0] = Vec<T>(T(x[i]), T(y[i]), T(z[i]));
     if (frame_count > 1) {
       placed[0] = origins[0] + Vec3(x[i], y[i], z[i]);
       for (std::size_t k = 1; k < frame_count; ++k) {
-        warped_from[k] = placed[frames[2 * (k - 1) + 1]];
-        placed[k] = unwarp(Evaluator::Scratch::warp_of_frame(field, k), warped_from[k]);
+        warped_from[k] = placed[view.outside_of(k)];
+        placed[k] = unwarp(view.warp_of(k), warped_from[k]);
         points[k] = Vec<T>(placed[k] - origins[k]);
       }
     }
@@ -223,10 +222,10 @@ void Evaluator::values(const PrunedField& field, std::span<const float> x, std::
   }
   const TapeView view = Scratch::view(field);
   const auto store = [&](std::size_t i, auto value) { f[i] = static_cast<float>(value); };
-  if (fits_in_float(view, field.box(), !Scratch::frames(field).empty()))
-    run_batch<float, float>(view, field, Scratch::frames(field), scratch_->floats, x, y, z, store);
+  if (fits_in_float(view, field.box(), !view.frames.empty()))
+    run_batch<float, float>(view, field.origin(), scratch_->floats, x, y, z, store);
   else
-    run_batch<double, double>(view, field, Scratch::frames(field), scratch_->numbers, x, y, z, store);
+    run_batch<double, double>(view, field.origin(), scratch_->numbers, x, y, z, store);
 }
 
 void Evaluator::samples(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,
@@ -243,10 +242,10 @@ void Evaluator::samples(const PrunedField& field, std::span<const float> x, std:
     return;
   }
   const TapeView view = Scratch::view(field);
-  if (fits_in_float(view, field.box(), !Scratch::frames(field).empty()))
-    run_batch<Dual<float>, float>(view, field, Scratch::frames(field), scratch_->float_duals, x, y, z, store);
+  if (fits_in_float(view, field.box(), !view.frames.empty()))
+    run_batch<Dual<float>, float>(view, field.origin(), scratch_->float_duals, x, y, z, store);
   else
-    run_batch<Dual<double>, double>(view, field, Scratch::frames(field), scratch_->duals, x, y, z, store);
+    run_batch<Dual<double>, double>(view, field.origin(), scratch_->duals, x, y, z, store);
 }
 
 }  // namespace cambium

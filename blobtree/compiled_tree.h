@@ -89,6 +89,10 @@ struct CompiledTree {
   Box bounds;
   BoxIndex index;                  ///< over atom bounds
   AncestorIndex ancestors;         ///< lowest common ancestors of atoms
+
+  /// The shape of a chain's atom, and of a primitive node.
+  SweptSegment<double> segment_of(std::uint32_t atom) const { return segments[atoms[atom].segment]; }
+  CompiledPrimitive primitive_of(const CompiledNode& node) const { return primitives[node.payload]; }
 };
 
 /// Errors: InvalidNode for an unbounded field or a bend whose child reaches its centre.

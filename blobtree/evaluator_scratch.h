@@ -17,9 +17,7 @@ struct Evaluator::Scratch {
   TapeScratch<Interval> intervals;
   TapeScratch<TraitedValue> traits;
 
-  static TapeView view(const PrunedField& field) { return {*field.tree_, field.tape_, field.slots_, field.stack_size_}; }
-  static const std::vector<std::uint32_t>& frames(const PrunedField& field) { return field.frames_; }
-
+  static TapeView view(const PrunedField& field) { return {*field.tree_, field.tape_, field.slots_, field.frames_, field.stack_size_}; }
   static const Warp& warp_of_frame(const PrunedField& field, std::size_t frame) {  // frame >= 1
     const CompiledTree& tree = *field.tree_;
     return tree.warps[tree.nodes[field.frames_[2 * (frame - 1)]].payload];

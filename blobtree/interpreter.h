@@ -8,6 +8,7 @@
 #include "blobtree/field.h"
 #include "blobtree/operators.h"
 
+#include <span>
 #include <vector>
 
 namespace cambium {
@@ -22,11 +23,17 @@ struct TapeScratch {
   std::vector<Value> stack, weights;
 };
 
+/// A tape and the tree it was made from.
 struct TapeView {
   const CompiledTree& tree;
-  const std::vector<PrunedField::Instruction>& tape;
-  const std::vector<std::uint32_t>& slots;
+  std::span<const PrunedField::Instruction> tape;
+  std::span<const std::uint32_t> slots;
+  std::span<const std::uint32_t> frames;   ///< per frame after the world: its warp node and the frame outside of it
   std::uint32_t stack_size;
+
+  std::size_t frame_count() const { return 1 + frames.size() / 2; }
+  const Warp& warp_of(std::size_t frame) const { return tree.warps[tree.nodes[frames[2 * (frame - 1)]].payload]; }  // frame >= 1
+  std::uint32_t outside_of(std::size_t frame) const { return frames[2 * (frame - 1) + 1]; }
 };
 
 template <class Value, class Policy>
