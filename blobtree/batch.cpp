@@ -8,8 +8,6 @@
 namespace cambium {
 namespace {
 
-using Instruction = PrunedField::Instruction;
-
 template <class T>
 PointSkeleton<T> localised(const PointSkeleton<double>& k, const Vec3& origin) {
   return {Vec<T>(k.center - origin)};

@@ -354,21 +354,15 @@ class TreeCompiler {
 
 CompiledTree compile(const BlobTree& tree) { return TreeCompiler(tree).run(); }
 
-Interval atom_interval(const CompiledTree& tree, const Atom& atom, const Ball& ball) {
-  const CompiledNode& n = tree.nodes[atom.node];
-  if (n.op == Op::kChain) {
-    const Interval x = swept_ratio_interval(tree.segments[atom.segment], ball);
-    return falloff_interval(x.lo * kRadiusPerSupport, x.hi * kRadiusPerSupport, tree.chain_strengths[n.payload]);
-  }
-  if (n.op == Op::kHalfSpace) {
-    const CompiledHalfSpace& h = tree.half_spaces[n.payload];
-    const double s = glm::dot(ball.center - h.point, h.normal);
-    const auto f = [&](double at) { return std::clamp(0.5 - at / (2 * h.width), 0.0, 1.0); };
-    return {f(s + ball.radius), f(s - ball.radius)};
-  }
-  const CompiledPrimitive& p = tree.primitives[n.payload];
+Interval primitive_interval(const CompiledPrimitive& p, const Ball& ball) {
   const double d = std::visit([&](const auto& shape) { return distance(shape, ball.center).value; }, p.shape);
   return falloff_interval(std::max(0.0, d - ball.radius) * p.inverse_support, (d + ball.radius) * p.inverse_support, p.strength);
+}
+
+Interval half_space_interval(const CompiledHalfSpace& h, const Ball& ball) {
+  const double s = glm::dot(ball.center - h.point, h.normal);
+  const auto f = [&](double at) { return std::clamp(0.5 - at / (2 * h.width), 0.0, 1.0); };
+  return {f(s + ball.radius), f(s - ball.radius)};
 }
 
 }  // namespace cambium

@@ -11,6 +11,7 @@
 #include "blobtree/warps.h"
 
 #include <cstdint>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -72,7 +73,7 @@ struct AtomCoordinates {
   Vec3 u_direction{1, 0, 0};       ///< unit, orthogonal to the atom's axis
 };
 
-struct CompiledTree {
+struct CompiledTree : std::enable_shared_from_this<CompiledTree> {
   std::vector<CompiledNode> nodes;
   std::vector<std::uint32_t> children;
   std::vector<CompiledPrimitive> primitives;
@@ -98,7 +99,8 @@ struct CompiledTree {
 /// Errors: InvalidNode for an unbounded field or a bend whose child reaches its centre.
 CompiledTree compile(const BlobTree& tree);
 
-/// Bounds of one atom's value over a ball in the atom's own space; used to leave out what cannot matter.
-Interval atom_interval(const CompiledTree& tree, const Atom& atom, const Ball& ball);
+/// Bounds of values over a ball in the shape's own space.
+Interval primitive_interval(const CompiledPrimitive& primitive, const Ball& ball);
+Interval half_space_interval(const CompiledHalfSpace& half_space, const Ball& ball);
 
 }  // namespace cambium

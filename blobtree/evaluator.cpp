@@ -7,41 +7,41 @@
 namespace cambium {
 namespace {
 
-using Instruction = PrunedField::Instruction;
-
 /// A ball: bounds of everything over it.
 class BallPolicy {
  public:
-  BallPolicy(const CompiledTree& tree, const std::vector<UnwarpedBall>& balls, const std::vector<std::uint32_t>& slots)
-      : tree_(tree), balls_(balls), slots_(slots) {}
+  BallPolicy(const TapeView& view, const std::vector<UnwarpedBall>& balls, const GatheredShapes& shapes)
+      : view_(view), balls_(balls), shapes_(shapes) {}
 
   Interval primitive(const Instruction& in) const {
-    return atom_interval(tree_, tree_.atoms[in.first], balls_[in.frame].ball);
+    return primitive_interval(shapes_.primitive(static_cast<std::size_t>(&in - view_.tape.data())), balls_[in.frame].ball);
   }
-  Interval half_space(const Instruction& in) const { return primitive(in); }
+  Interval half_space(const Instruction& in) const {
+    return half_space_interval(view_.tree.half_spaces[view_.tree.nodes[in.node].payload], balls_[in.frame].ball);
+  }
   Interval chain(const Instruction& in) const {
     Interval x{kInfinity, kInfinity};
     for (std::uint32_t i = in.first; i < in.first + in.count; ++i) {
-      const Interval s = swept_ratio_interval(tree_.segments[tree_.atoms[slots_[i]].segment], balls_[in.frame].ball);
+      const Interval s = swept_ratio_interval(shapes_.segments()[i], balls_[in.frame].ball);
       x = {std::min(x.lo, s.lo), std::min(x.hi, s.hi)};
     }
     // Closed forms above round; a value must never escape by a bit.
     return falloff_interval(x.lo * kRadiusPerSupport * (1 - 1e-13), x.hi * kRadiusPerSupport * (1 + 1e-13),
-                            tree_.chain_strengths[tree_.nodes[in.node].payload]);
+                            view_.tree.chain_strengths[view_.tree.nodes[in.node].payload]);
   }
   Interval lateral_weight(const Lateral& lateral, const Instruction& in) const {
     return lateral_contact_weight_interval(lateral, balls_[in.frame].ball);
   }
   Interval warp(const Instruction& in, const Interval& f) const {
     if (balls_[in.frame].certain) return f;
-    const Interval& anywhere = tree_.nodes[in.node].range;
+    const Interval& anywhere = view_.tree.nodes[in.node].range;
     return {std::min(0.0, anywhere.lo), std::max(0.0, anywhere.hi)};
   }
 
  private:
-  const CompiledTree& tree_;
+  const TapeView& view_;
   const std::vector<UnwarpedBall>& balls_;
-  const std::vector<std::uint32_t>& slots_;
+  const GatheredShapes& shapes_;
 };
 
 /// A point, with how its surface came about.
@@ -81,42 +81,55 @@ Evaluator::~Evaluator() = default;
 
 double Evaluator::value(const PrunedField& field, const Vec3& p) {
   if (field.empty()) return 0;
-  Scratch& s = *scratch_;
-  s.place(field, p);
-  PointPolicy<double> policy(*field.tree_, field, s, field.slots_);
-  return run_tape(Scratch::view(field), policy, s.numbers);
+  const TapeView view = scratch_->place(field, p);
+  PointPolicy<double> policy(view, *scratch_);
+  return run_tape(view, policy, scratch_->numbers);
 }
 
 Sample Evaluator::sample(const PrunedField& field, const Vec3& p) {
   if (field.empty()) return {};
-  Scratch& s = *scratch_;
-  s.place(field, p);
-  PointPolicy<Dual<double>> policy(*field.tree_, field, s, field.slots_);
-  const Dual<double> d = run_tape(Scratch::view(field), policy, s.duals);
+  const TapeView view = scratch_->place(field, p);
+  PointPolicy<Dual<double>> policy(view, *scratch_);
+  const Dual<double> d = run_tape(view, policy, scratch_->duals);
   return {d.f, d.g};
 }
 
 Interval Evaluator::interval(const PrunedField& field, const Ball& ball) {
   if (field.empty()) return {0, 0};
-  Scratch& s = *scratch_;
-  s.balls.resize(1 + field.frames_.size() / 2);
-  s.balls[0] = {{ball.center, ball.radius * (1 + 1e-12)}, true};
-  for (std::size_t k = 1; k < s.balls.size(); ++k)
-    s.balls[k] = unwarp(Scratch::warp_of_frame(field, k), s.balls[field.frames_[2 * (k - 1) + 1]].ball);
-  BallPolicy policy(*field.tree_, s.balls, field.slots_);
-  return run_tape(Scratch::view(field), policy, s.intervals);
+  if (ball.radius < kInfinity) return scratch_->interval(*field.tree_, *field.tape_, ball);
+  const Box& bounds = field.tree_->bounds;   // outside of it the field is 0
+  if (bounds.empty()) return {0, 0};
+  const Interval inside = scratch_->interval(*field.tree_, *field.tape_, circumscribed_ball(bounds));
+  return {std::min(inside.lo, 0.0), std::max(inside.hi, 0.0)};
+}
+
+Interval Evaluator::interval(const PrunedField& field, const Box& box) {
+  return interval(field, box.bounded() ? circumscribed_ball(box) : Ball{Vec3(0.0), kInfinity});
+}
+
+Interval Evaluator::Scratch::interval(const CompiledTree& tree, const Tape& tape, const Ball& ball) {
+  const TapeView tape_view = view(tree, tape);
+  shapes.gather(tree, tape);
+  balls.resize(tape_view.frame_count());
+  // A hair wider, and so is the result: bounds and values round differently.
+  balls[0] = {{ball.center, ball.radius * (1 + 1e-12) + 1e-15 * glm::length(ball.center)}, true};
+  for (std::size_t k = 1; k < balls.size(); ++k) balls[k] = unwarp(tape_view.warp_of(k), balls[tape_view.outside_of(k)].ball);
+  BallPolicy policy(tape_view, balls, shapes);
+  const Interval f = run_tape(tape_view, policy, intervals);
+  constexpr double kRounding = 1e-13;
+  return {f.lo - kRounding * std::abs(f.lo), f.hi + kRounding * std::abs(f.hi)};
 }
 
 void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vector<Contribution>& out) {
   out.clear();
   if (field.empty()) return;
-  Scratch& s = *scratch_;
-  s.place(field, p);
-  const CompiledTree& tree = *field.tree_;
-  const PointPolicy<double> policy(tree, field, s, field.slots_);
-  for (const Instruction& in : field.tape_) {
+  const Scratch& s = *scratch_;
+  const TapeView view = scratch_->place(field, p);
+  const CompiledTree& tree = view.tree;
+  const PointPolicy<double> policy(view, s);
+  for (const Instruction& in : view.tape) {
     const CompiledNode& node = tree.nodes[in.node];
-    const auto op = static_cast<Op>(in.op);
+    const Op op = in.op;
     if (node.subtracted || (op != Op::kPrimitive && op != Op::kChain)) continue;
     const double weight = op == Op::kChain ? policy.chain(in) : policy.primitive(in);
     if (!(weight > 0)) continue;
@@ -133,20 +146,20 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
     };
     if (op == Op::kChain) {
       double best = kInfinity;
-      std::uint32_t winner = field.slots_[in.first];
+      std::uint32_t winner = in.first;
       for (std::uint32_t i = in.first; i < in.first + in.count; ++i) {
-        const double x = swept_ratio(tree.segments[tree.atoms[field.slots_[i]].segment], q);
+        const double x = swept_ratio(s.shapes.segments()[i], q);
         if (x < best) {
           best = x;
-          winner = field.slots_[i];
+          winner = i;
         }
       }
-      const SweptSegment<double>& segment = tree.segments[tree.atoms[winner].segment];
+      const SweptSegment<double>& segment = s.shapes.segments()[winner];
       const double along = closest_parameter(segment, q - segment.a);
       c.radius = segment.radius_at(along);
-      place(winner, {segment.a, segment.axis}, along);
+      place(view.slots[winner], {segment.a, segment.axis}, along);
     } else {
-      const CompiledPrimitive& primitive = tree.primitives[node.payload];
+      const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.data()));
       const NativeAxis native = std::visit([](const auto& shape) { return native_axis(shape); }, primitive.shape);
       c.radius = tree.atoms[in.first].radius;
       place(in.first, native, glm::dot(q - native.origin, native.axis));
@@ -157,11 +170,10 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
 
 SurfaceTraits Evaluator::surface_traits(const PrunedField& field, const Vec3& p) {
   if (field.empty()) return {};
-  Scratch& s = *scratch_;
-  s.place(field, p);
-  const PointPolicy<double> point(*field.tree_, field, s, field.slots_);
+  const TapeView view = scratch_->place(field, p);
+  const PointPolicy<double> point(view, *scratch_);
   TraitsPolicy policy(point);
-  return run_tape(Scratch::view(field), policy, s.traits).traits;
+  return run_tape(view, policy, scratch_->traits).traits;
 }
 
 }  // namespace cambium

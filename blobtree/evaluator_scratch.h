@@ -5,9 +5,48 @@
 #include "blobtree/interpreter.h"
 #include "blobtree/surface_traits.h"
 
+#include <algorithm>
+#include <memory>
+#include <vector>
+
 namespace cambium {
 
+/// The shapes of one tape, gathered from the tree so that a query reads them in a row. Kept until another tape is asked for.
+class GatheredShapes {
+ public:
+  void gather(const CompiledTree& tree, const Tape& tape) {
+    if (tree_.get() == &tree && std::ranges::equal(instructions_, tape.instructions) && std::ranges::equal(slots_, tape.slots)) return;
+    if (tree_.get() != &tree) tree_ = tree.shared_from_this();   // while it lives, no other tree has its address
+    instructions_.assign(tape.instructions.begin(), tape.instructions.end());
+    slots_.assign(tape.slots.begin(), tape.slots.end());
+    segments_.resize(slots_.size());
+    place_.resize(instructions_.size());
+    primitives_.clear();
+    for (std::size_t i = 0; i < instructions_.size(); ++i) {
+      const Instruction& in = instructions_[i];
+      if (in.op == Op::kChain) {
+        for (std::uint32_t k = in.first; k < in.first + in.count; ++k) segments_[k] = tree.segment_of(slots_[k]);
+      } else if (in.op == Op::kPrimitive) {
+        place_[i] = static_cast<std::uint32_t>(primitives_.size());
+        primitives_.push_back(tree.primitive_of(tree.nodes[in.node]));
+      }
+    }
+  }
+  /// `at`: of the instruction in its tape.
+  const CompiledPrimitive& primitive(std::size_t at) const { return primitives_[place_[at]]; }
+  /// By slot.
+  const SweptSegment<double>* segments() const { return segments_.data(); }
+
+ private:
+  std::shared_ptr<const CompiledTree> tree_;
+  std::vector<Instruction> instructions_;
+  std::vector<std::uint32_t> slots_, place_;
+  std::vector<SweptSegment<double>> segments_;
+  std::vector<CompiledPrimitive> primitives_;
+};
+
 struct Evaluator::Scratch {
+  GatheredShapes shapes;
   std::vector<Vec3> points;                 ///< the query point in each frame, frame 0 first
   std::vector<UnwarpedBall> balls;
   TapeScratch<double> numbers;
@@ -17,22 +56,21 @@ struct Evaluator::Scratch {
   TapeScratch<Interval> intervals;
   TapeScratch<TraitedValue> traits;
 
-  static TapeView view(const PrunedField& field) { return {*field.tree_, field.tape_, field.slots_, field.frames_, field.stack_size_}; }
-  static const Warp& warp_of_frame(const PrunedField& field, std::size_t frame) {  // frame >= 1
-    const CompiledTree& tree = *field.tree_;
-    return tree.warps[tree.nodes[field.frames_[2 * (frame - 1)]].payload];
+  static TapeView view(const CompiledTree& tree, const Tape& tape) {
+    return {tree, tape.instructions, tape.slots, tape.frames, tape.stack_size};
   }
+  static TapeView view(const PrunedField& field) { return view(*field.tree_, *field.tape_); }
 
-  /// The point in the space of every frame.
-  void place(const PrunedField& field, const Vec3& p) {
-    points.resize(1 + field.frames_.size() / 2);
+  Interval interval(const CompiledTree& tree, const Tape& tape, const Ball& ball);
+
+  /// Gets ready for a point: the shapes, and the point in the space of every frame.
+  TapeView place(const PrunedField& field, const Vec3& p) {
+    const TapeView tape = view(field);
+    shapes.gather(*field.tree_, *field.tape_);
+    points.resize(tape.frame_count());
     points[0] = p;
-    for (std::size_t k = 1; k < points.size(); ++k)
-      points[k] = unwarp(warp_of_frame(field, k), points[field.frames_[2 * (k - 1) + 1]]);
-  }
-  /// The point outside of the warp whose inner space is `frame`.
-  const Vec3& outside_of(const PrunedField& field, std::size_t frame) const {
-    return points[field.frames_[2 * (frame - 1) + 1]];
+    for (std::size_t k = 1; k < points.size(); ++k) points[k] = unwarp(tape.warp_of(k), points[tape.outside_of(k)]);
+    return tape;
   }
 };
 
@@ -40,50 +78,47 @@ struct Evaluator::Scratch {
 template <class N>
 class PointPolicy {
  public:
-  PointPolicy(const CompiledTree& tree, const PrunedField& field, const Evaluator::Scratch& at, const std::vector<std::uint32_t>& slots)
-      : tree_(tree), field_(field), at_(at), slots_(slots) {}
+  PointPolicy(const TapeView& view, const Evaluator::Scratch& at) : view_(view), at_(at) {}
 
-  N primitive(const PrunedField::Instruction& in) const {
-    const CompiledPrimitive& p = tree_.primitives[tree_.nodes[in.node].payload];
+  N primitive(const Instruction& in) const {
+    const CompiledPrimitive& p = at_.shapes.primitive(static_cast<std::size_t>(&in - view_.tape.data()));
     const Distance<double> d = std::visit([&](const auto& shape) { return distance(shape, at_.points[in.frame]); }, p.shape);
     return falloff_of<N>(d, p.inverse_support, p.strength);
   }
-  N half_space(const PrunedField::Instruction& in) const {
-    const CompiledHalfSpace& h = tree_.half_spaces[tree_.nodes[in.node].payload];
+  N half_space(const Instruction& in) const {
+    const CompiledHalfSpace& h = view_.tree.half_spaces[view_.tree.nodes[in.node].payload];
     return half_space_of<N>(glm::dot(at_.points[in.frame] - h.point, h.normal), h.normal, h.width);
   }
-  N chain(const PrunedField::Instruction& in) const {
+  N chain(const Instruction& in) const {
     const Vec3& p = at_.points[in.frame];
+    const SweptSegment<double>* const segments = at_.shapes.segments() + in.first;
     double best = kInfinity;
     std::uint32_t winner = 0;
-    for (std::uint32_t i = in.first; i < in.first + in.count; ++i) {
-      const std::uint32_t segment = tree_.atoms[slots_[i]].segment;
-      const double x = swept_ratio(tree_.segments[segment], p);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const double x = swept_ratio(segments[i], p);
       if (x < best) {
         best = x;
-        winner = segment;
+        winner = i;
       }
     }
     Distance<double> d{best, Vec3(0.0)};
-    if constexpr (!std::is_floating_point_v<N>) d = swept_ratio_gradient(tree_.segments[winner], p);
-    return falloff_of<N>(d, kRadiusPerSupport, tree_.chain_strengths[tree_.nodes[in.node].payload]);
+    if constexpr (!std::is_floating_point_v<N>) d = swept_ratio_gradient(segments[winner], p);
+    return falloff_of<N>(d, kRadiusPerSupport, view_.tree.chain_strengths[view_.tree.nodes[in.node].payload]);
   }
-  N lateral_weight(const Lateral& lateral, const PrunedField::Instruction& in) const {
+  N lateral_weight(const Lateral& lateral, const Instruction& in) const {
     return lateral_contact_weight<N>(lateral, at_.points[in.frame] - lateral.point);
   }
-  N warp(const PrunedField::Instruction& in, const N& f) const {
+  N warp(const Instruction& in, const N& f) const {
     if constexpr (std::is_floating_point_v<N>) {
       return f;
     } else {
-      return N(f.f, pull_back(Evaluator::Scratch::warp_of_frame(field_, in.frame), at_.outside_of(field_, in.frame), f.g));
+      return N(f.f, pull_back(view_.warp_of(in.frame), at_.points[view_.outside_of(in.frame)], f.g));
     }
   }
 
  private:
-  const CompiledTree& tree_;
-  const PrunedField& field_;
+  const TapeView& view_;
   const Evaluator::Scratch& at_;
-  const std::vector<std::uint32_t>& slots_;
 };
 
 }  // namespace cambium

@@ -1,49 +1,69 @@
 #include "blobtree/field.h"
 
+#include "blobtree/active_atoms.h"
 #include "blobtree/compiled_tree.h"
 #include "blobtree/tape.h"
 
 #include <numeric>
+#include <utility>
 
 namespace cambium {
+namespace {
+
+struct TapeAndTree {
+  TapeAndTree(std::shared_ptr<const CompiledTree> of, const Tape& made) : tree(std::move(of)), tape(made) {}
+  std::shared_ptr<const CompiledTree> tree;
+  OwnedTape tape;
+};
+
+}  // namespace
+
+PrunedField::PrunedField(const CompiledTree& tree, const Tape& tape, std::shared_ptr<const void> owner, const Box& box)
+    : tree_(&tree), tape_(&tape), owner_(std::move(owner)), box_(box),
+      origin_(box.bounded() ? box.center() : tree.bounds.empty() ? Vec3(0.0) : tree.bounds.center()) {}
+
+bool PrunedField::empty() const { return !tape_ || tape_->empty(); }
+std::size_t PrunedField::atom_count() const { return tape_ ? tape_->atom_count : 0; }
+double PrunedField::smallest_radius() const { return tape_ ? tape_->smallest_radius : kInfinity; }
+std::size_t PrunedField::memory_bytes() const {
+  return sizeof(*this) + (tape_ ? sizeof(TapeAndTree) + tape_->array_bytes() : 0);
+}
 
 Field::Field(const BlobTree& tree) : tree_(std::make_shared<const CompiledTree>(compile(tree))) {}
 
 const Box& Field::bounds() const { return tree_->bounds; }
 std::size_t Field::atom_count() const { return tree_->atoms.size(); }
 double Field::atom_radius(std::uint32_t atom) const { return tree_->atoms[atom].radius; }
-const Box& Field::atom_bounds(std::uint32_t atom) const { return tree_->atoms[atom].bounds; }
+Box Field::atom_bounds(std::uint32_t atom) const { return tree_->atoms[atom].bounds; }
 
 ActiveSet Field::active(const Box& box) const {
-  ActiveSet set{tree_->index.query(box)};
-  const Ball ball = circumscribed_ball(box);
-  std::erase_if(set.atoms, [&](std::uint32_t atom) { return !is_active(*tree_, atom, box, ball); });
+  ActiveSet set;
+  append_active(*tree_, tree_->index.query(box), box, set.atoms);
   return set;
 }
 
 ActiveSet Field::narrow(const ActiveSet& from, const Box& box) const {
   ActiveSet set;
-  const Ball ball = circumscribed_ball(box);
-  for (const std::uint32_t atom : from.atoms)
-    if (is_active(*tree_, atom, box, ball)) set.atoms.push_back(atom);
+  append_active(*tree_, from.atoms, box, set.atoms);
   return set;
 }
 
-PrunedField Field::prune(const ActiveSet& active, const Box& box) const { return TapeBuilder(tree_, active.atoms, box).build(); }
+PrunedField Field::prune(const ActiveSet& active, const Box& box) const {
+  TapeBuilder builder(*tree_);
+  const auto owned = std::make_shared<const TapeAndTree>(tree_, builder.build(active.atoms));
+  return PrunedField(*tree_, owned->tape.tape(), owned, box);
+}
 PrunedField Field::prune(const Box& box) const { return prune(active(box), box); }
 
 PrunedField Field::whole() const {
-  std::vector<std::uint32_t> all(tree_->atoms.size());
-  std::iota(all.begin(), all.end(), 0u);
-  return TapeBuilder(tree_, all, Box{Vec3(-kInfinity), Vec3(kInfinity)}).build();
+  ActiveSet all;
+  all.atoms.resize(tree_->atoms.size());
+  std::iota(all.atoms.begin(), all.atoms.end(), 0u);
+  return prune(all, Box{Vec3(-kInfinity), Vec3(kInfinity)});
 }
 
 double Field::value(const Vec3& p) const { return Evaluator().value(prune(Box{p, p}), p); }
 Sample Field::sample(const Vec3& p) const { return Evaluator().sample(prune(Box{p, p}), p); }
 Interval Field::interval(const Box& box) const { return Evaluator().interval(prune(box), box); }
-
-std::size_t PrunedField::memory_bytes() const {
-  return sizeof(*this) + tape_.capacity() * sizeof(Instruction) + (slots_.capacity() + frames_.capacity()) * sizeof(std::uint32_t);
-}
 
 }  // namespace cambium

@@ -12,6 +12,7 @@
 namespace cambium {
 
 struct CompiledTree;  // private to blobtree/
+struct Tape;
 
 /// Field value and its analytic gradient (1/m). The outward normal is -gradient/|gradient|.
 struct Sample {
@@ -43,40 +44,29 @@ struct ActiveSet {
 };
 
 /// A field that equals the whole field exactly (to the last bit in double) inside box(), and holds only what can be
-/// non-zero there.
+/// non-zero there. A handle: cheap to copy.
 class PrunedField {
  public:
   PrunedField() = default;
   const Box& box() const { return box_; }
   const Vec3& origin() const { return origin_; }   ///< batches are relative to this (the box's centre)
-  bool empty() const { return tape_.empty(); }     ///< zero everywhere in the box
-  std::size_t atom_count() const { return atom_count_; }
-  std::size_t memory_bytes() const;
+  bool empty() const;                              ///< zero everywhere in the box
+  std::size_t atom_count() const;
+  std::size_t memory_bytes() const;                ///< what it holds beside the Field; neighbouring cells of a cover share it
   /// The smallest surface radius of an active primitive, metres (infinite if none has one).
-  double smallest_radius() const { return smallest_radius_; }
-
-  struct Instruction {                             // postfix; see tape.h
-    std::uint8_t op = 0;
-    std::uint8_t with_zero = 0;
-    std::uint16_t frame = 0;
-    std::uint32_t node = 0;                        ///< node in the compiled tree
-    std::uint32_t first = 0;                       ///< first of `count` entries in slots_
-    std::uint32_t count = 0;
-  };
+  double smallest_radius() const;
 
  private:
   friend class Field;
   friend class Evaluator;
-  friend class TapeBuilder;
-  std::shared_ptr<const CompiledTree> tree_;
+  friend class SurfaceCover;
+  friend class CellSearch;
+  PrunedField(const CompiledTree& tree, const Tape& tape, std::shared_ptr<const void> owner, const Box& box);
+  const CompiledTree* tree_ = nullptr;
+  const Tape* tape_ = nullptr;
+  std::shared_ptr<const void> owner_;              ///< of tree and tape; none where a cover owns them
   Box box_;
   Vec3 origin_{0.0};
-  std::vector<Instruction> tape_;
-  std::vector<std::uint32_t> slots_;               ///< child slots of operators, segments of chains
-  std::vector<std::uint32_t> frames_;              ///< warp node of each frame; frame 0 (the world) is not listed
-  std::uint32_t stack_size_ = 0;
-  std::uint32_t atom_count_ = 0;
-  double smallest_radius_ = kInfinity;
 };
 
 /// Compiled once from a BlobTree. Memory: linear in primitives.
@@ -104,9 +94,10 @@ class Field {
 
   /// Surface radius and support box of one atom (for cell-size rules and reports).
   double atom_radius(std::uint32_t atom) const;    ///< smallest surface radius along it; kInfinity for a half-space
-  const Box& atom_bounds(std::uint32_t atom) const;
+  Box atom_bounds(std::uint32_t atom) const;
 
  private:
+  friend class CellSearch;
   std::shared_ptr<const CompiledTree> tree_;
 };
 
@@ -122,7 +113,7 @@ class Evaluator {
   Sample sample(const PrunedField& field, const Vec3& p);
   /// Conservative over the part of the ball inside field.box().
   Interval interval(const PrunedField& field, const Ball& ball);
-  Interval interval(const PrunedField& field, const Box& box) { return interval(field, circumscribed_ball(box)); }
+  Interval interval(const PrunedField& field, const Box& box);
 
   /// Batches: SoA floats relative to field.origin(), equal lengths. Agree with value()/sample() to 1e-4.
   void values(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "blobtree/compiled_tree.h"
-#include "blobtree/field.h"
 #include "blobtree/operators.h"
+#include "blobtree/tape.h"
 
 #include <span>
 #include <vector>
@@ -26,7 +26,7 @@ struct TapeScratch {
 /// A tape and the tree it was made from.
 struct TapeView {
   const CompiledTree& tree;
-  std::span<const PrunedField::Instruction> tape;
+  std::span<const Instruction> tape;
   std::span<const std::uint32_t> slots;
   std::span<const std::uint32_t> frames;   ///< per frame after the world: its warp node and the frame outside of it
   std::uint32_t stack_size;
@@ -42,8 +42,8 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
   if (scratch.stack.size() < view.stack_size) scratch.stack.resize(view.stack_size);
   Value* const stack = scratch.stack.data();
   std::size_t top = 0;
-  for (const PrunedField::Instruction& in : view.tape) {
-    const auto op = static_cast<Op>(in.op);
+  for (const Instruction& in : view.tape) {
+    const Op op = in.op;
     if (op == Op::kPrimitive) {
       stack[top++] = policy.primitive(in);
       continue;
@@ -60,7 +60,7 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
     Value* const f = stack + top;
     const CompiledNode& node = view.tree.nodes[in.node];
     const std::size_t n = in.count;
-    const bool with_zero = in.with_zero != 0;
+    const bool with_zero = in.with_zero;
     switch (op) {
       case Op::kSum: f[0] = sum_of(f, n); break;
       case Op::kUnion: f[0] = max_of(f, n, with_zero); break;

@@ -166,7 +166,8 @@ inline Interval swept_ratio_interval(const SweptSegment<double>& k, const Ball& 
   const double r_max = std::max(k.radius_at(k.begin), k.radius_at(k.end));
   double lo = (glm::length(q - nearest * k.axis) - rho) / r_max;
   const double r_m = k.radius_at(h);
-  const double e2 = std::max(0.0, glm::dot(q, q) - h * h);
+  const Vec3 across = q - h * k.axis;   // not |q|^2 - h^2, which cancels beside a long thin segment
+  const double e2 = glm::dot(across, across);
   if (r_m > 0 && e2 > rho * rho) {
     const double a = r_m * r_m + e2 * k.slope * k.slope;
     const double x = (-rho * r_m + std::sqrt(rho * rho * r_m * r_m + a * (e2 - rho * rho))) / a;
