@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(
   build-essential cmake ninja-build ccache
-  libglm-dev libtbb-dev libfmt-dev
+  libglm-dev libtbb-dev libfmt-dev libhwy-dev
   libopenmesh-dev libtinygltf-dev nlohmann-json3-dev libopenvdb-dev libboost-dev
   libembree-dev libopenimageio-dev
   libcli11-dev libtomlplusplus-dev

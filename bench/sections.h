@@ -1,0 +1,15 @@
+// The sections of the benchmark. Each measures, and adds its rows to the report.
+#pragma once
+
+#include "bench/measurements.h"
+#include "bench/report.h"
+
+namespace cambium::bench {
+
+/// Sums of cones and chains in one cell against the yardstick; every other primitive and operator.
+void batch_section(Report& report, const Pace& pace);
+void node_section(Report& report, const Pace& pace);
+/// Points, intervals, pruning and batches in cells on the poplar of examples/.
+void poplar_section(Report& report, const Pace& pace);
+
+}  // namespace cambium::bench
