@@ -23,13 +23,6 @@ PrunedField sum_of_cones(int count) {
   return pruned_to_cell(builder.build(root), static_cast<std::size_t>(count));
 }
 
-PrunedField one_chain(int segments) {
-  RandomNumbers random(1);
-  BlobTreeBuilder builder;
-  const NodeId root = builder.add(chain_through_cell(random, segments));
-  return pruned_to_cell(builder.build(root), static_cast<std::size_t>(segments));
-}
-
 /// The yardstick's own cone, through the cell like the others. It has to give the library's values: else it is no yardstick.
 YardstickCone checked_yardstick(BatchPoints& points) {
   RandomNumbers random(1);
@@ -91,7 +84,7 @@ void batch_section(Report& report, const Pace& pace) {
   std::deque<Measured> cones, chains;
   for (const int count : kCounts) {
     cones.emplace_back("cones " + std::to_string(count), sum_of_cones(count), measurements);
-    chains.emplace_back("chain " + std::to_string(count), one_chain(count), measurements);
+    chains.emplace_back("chain " + std::to_string(count), chain_pruned_to_cell(RandomNumbers(1), count), measurements);
   }
   measurements.run();
   const double limit = measurements.ns("yardstick") / kYardstickPoints;

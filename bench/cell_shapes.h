@@ -28,14 +28,14 @@ inline Cone cone_through_cell(RandomNumbers& random) {
   return {line.middle - 0.15 * line.along, line.middle + 0.15 * line.along, 1.2 * kBranchRadius, kBranchRadius, 1};
 }
 
-/// A chain of that many segments, gently winding and tapering, 0.24 m long, so that each segment's support meets the cell.
-inline Chain chain_through_cell(RandomNumbers& random, int segments) {
+/// A chain of that many segments, gently winding and tapering, of the given length in metres.
+inline Chain chain_through_cell(RandomNumbers random, int segments, double length) {
   const BranchLine line = branch_line(random);
   const Vec3 sideways = random.across(line.along);
   Chain chain;
   for (int i = 0; i <= segments; ++i) {
     const double t = i / static_cast<double>(segments);
-    chain.nodes.push_back({line.middle + 0.24 * (t - 0.5) * line.along + 0.01 * std::sin(5 * t) * sideways,
+    chain.nodes.push_back({line.middle + length * (t - 0.5) * line.along + 0.04 * length * std::sin(5 * t) * sideways,
                            kBranchRadius * (1.1 - 0.2 * t)});
   }
   return chain;
@@ -48,6 +48,18 @@ inline PrunedField pruned_to_cell(const BlobTree& tree, std::size_t atoms) {
     throw std::logic_error("a cell of the benchmark holds " + std::to_string(field.atom_count()) + " primitives, not " +
                            std::to_string(atoms));
   return field;
+}
+
+/// The longest chain of `segments` whose segments are all active in the cell, alone in a field.
+/// Errors: std::logic_error if there is none.
+inline PrunedField chain_pruned_to_cell(RandomNumbers random, int segments) {
+  for (double length = 0.24; length > 0.01; length *= 0.9) {
+    BlobTreeBuilder builder;
+    const NodeId root = builder.add(chain_through_cell(random, segments, length));
+    PrunedField field = Field(builder.build(root)).prune(kCell);
+    if (field.atom_count() == static_cast<std::size_t>(segments)) return field;
+  }
+  throw std::logic_error("no chain of " + std::to_string(segments) + " segments is wholly active in the benchmark's cell");
 }
 
 }  // namespace cambium::bench

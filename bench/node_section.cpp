@@ -37,7 +37,7 @@ const Subject kPrimitives[] = {
        const BranchLine line = branch_line(r);
        return b.add(RoundCone{line.middle - 0.15 * line.along, line.middle + 0.15 * line.along, 1.2 * kRadius, kRadius, 1});
      }},
-    {"chain of 4 segments", 4, [](Builder& b, Random& r) { return b.add(chain_through_cell(r, 4)); }},
+    {"chain of 3 segments", 3, [](Builder& b, Random& r) { return b.add(chain_through_cell(r, 3, 0.06)); }},
     {"sphere", 1, [](Builder& b, Random& r) { return b.add(Sphere{kRadius * r.direction(), kRadius, 1}); }},
     {"capsule", 1,
      [](Builder& b, Random& r) {

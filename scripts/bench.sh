@@ -7,9 +7,10 @@
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-{
+(
   "$top/scripts/packages.sh"
-  cd "$top" && cmake --preset bench && cmake --build --preset bench --target cambium_bench
-} >&2
-cd - > /dev/null
+  cd "$top"
+  cmake --preset bench
+  cmake --build --preset bench --target cambium_bench
+) >&2
 exec "$top/build-bench/bench/cambium_bench" "$@"
