@@ -1,9 +1,11 @@
 // Times pieces of work with Google Benchmark, so that ratios between them can be formed.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cambium::bench {
@@ -12,6 +14,7 @@ namespace cambium::bench {
 struct Pace {
   int repetitions = 12;
   double seconds = 0.02;               ///< of each repetition, at least
+  std::size_t largest_tree = 1'000'000;  ///< internodes of generated trees
 };
 
 /// A group whose members are measured in turns: repetitions of all of them in a random order, so that a slow second of the

@@ -25,7 +25,7 @@ class RandomNumbers {
   std::uint64_t below(std::uint64_t count) { return bits() % count; }
   Vec3 direction() {
     for (;;) {
-      const Vec3 v(between(-1, 1), between(-1, 1), between(-1, 1));
+      const Vec3 v{between(-1, 1), between(-1, 1), between(-1, 1)};  // braces: drawn in this order
       const double size = glm::length(v);
       if (size > 0.1 && size <= 1) return v / size;
     }

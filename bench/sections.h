@@ -11,5 +11,7 @@ void batch_section(Report& report, const Pace& pace);
 void node_section(Report& report, const Pace& pace);
 /// Points, intervals, pruning and batches in cells on the poplar of examples/.
 void poplar_section(Report& report, const Pace& pace);
+/// Building, memory, pruning and covers over the size and shape of generated trees.
+void trees_section(Report& report, const Pace& pace);
 
 }  // namespace cambium::bench

@@ -1,0 +1,107 @@
+// Generated trees of a thousand to a million internodes: what grows with the tree, and what must not.
+#include "bench/generated_trees.h"
+#include "bench/sections.h"
+#include "bench/tree_case.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <deque>
+
+namespace cambium::bench {
+namespace {
+
+constexpr std::size_t kPlaces = 2000;
+constexpr std::size_t kReference = 10'000;     // internodes; the ratios are to a tree of this size
+constexpr double kSameMemory = 1.05;           // vectors round their capacity up
+
+struct Cases {
+  std::deque<TreeCase> random;                 // ascending sizes
+  std::deque<TreeCase> shapes;                 // single axis, balanced tree
+  const TreeCase* reference = nullptr;
+};
+
+Cases make_cases(const Pace& pace) {
+  Cases cases;
+  for (std::size_t size = 1000; size <= pace.largest_tree; size *= 10) {
+    const int power = static_cast<int>(std::lround(std::log10(static_cast<double>(size))));
+    cases.random.push_back(make_tree_case(fmt::format("random tree of 10^{}", power), random_tree(size, 5), kPlaces));
+    if (size == kReference) cases.reference = &cases.random.back();
+  }
+  cases.shapes.push_back(make_tree_case("balanced tree of 10^5", balanced_tree(100'000), kPlaces));
+  cases.shapes.push_back(make_tree_case("single axis of 10^5", single_axis(100'000), kPlaces));
+  return cases;
+}
+
+/// 0 for what does not say.
+template <class Part>
+std::size_t memory_of(const Part& part) {
+  if constexpr (requires { part.memory_bytes(); })
+    return part.memory_bytes();
+  else
+    return 0;
+}
+
+double memory_per_internode(const TreeCase& tree, std::size_t bytes) { return static_cast<double>(bytes) / tree.internodes(); }
+
+/// Figures of one tree that need no repetition. `reference`: the tree that memory is compared with; none for that tree itself.
+void add_building_rows(Report& report, const TreeCase& tree, const TreeCase* reference) {
+  const bool is_million = tree.internodes() == 1e6;
+  report.heading(fmt::format("Generated: {} internodes, {} primitives", tree.name, tree.field.atom_count()));
+  Row surface{.what = "skeleton to BlobTree", .figure = tree.surface_seconds, .unit = "s"};
+  if (is_million) surface.target = at_most(5);
+  report.add(surface);
+  report.add({.what = "compile to a Field", .figure = tree.compile_seconds, .unit = "s"});
+  const auto memory_row = [&](const char* what, const auto& part) {
+    if (memory_of(part(tree)) == 0) return;
+    const double bytes = memory_per_internode(tree, memory_of(part(tree)));
+    Row row{.what = what, .figure = bytes, .unit = "B/internode"};
+    if (reference) {
+      row.ratio = bytes / memory_per_internode(*reference, memory_of(part(*reference)));
+      row.ratio_to = reference->name + "'s";
+      row.target = at_most(kSameMemory);
+    }
+    report.add(row);
+  };
+  memory_row("memory of the BlobTree", [](const TreeCase& of) -> const BlobTree& { return of.tree; });
+  if (is_million && memory_of(tree.tree) > 0)
+    report.add({.what = "memory of the BlobTree, of 200 B", .figure = memory_per_internode(tree, memory_of(tree.tree)),
+                .unit = "B/internode", .target = at_most(200)});
+  memory_row("memory of the Field", [](const TreeCase& of) -> const Field& { return of.field; });
+  report.add({.what = "primitives active in a cell", .figure = tree.mean_active, .unit = "on average"});
+}
+
+}  // namespace
+
+void trees_section(Report& report, const Pace& pace) {
+  const Cases cases = make_cases(pace);
+  Measurements measurements(pace);
+  const auto measure = [&](const TreeCase& tree) {
+    measurements.add(tree.name, [&tree] {
+      for (const SurfacePlace& place : tree.places) benchmark::DoNotOptimize(tree.field.prune(place.cell()));
+    });
+  };
+  for (const TreeCase& tree : cases.random) measure(tree);
+  for (const TreeCase& tree : cases.shapes) measure(tree);
+  measurements.run();
+
+  const auto prune_ns = [&](const TreeCase& tree) { return measurements.ns(tree.name) / kPlaces; };
+  const auto add_prune_row = [&](const TreeCase& tree, const TreeCase* to) {
+    Row row{.what = "prune, cells far from each other", .figure = prune_ns(tree), .unit = "ns/cell"};
+    if (to) row.ratio = prune_ns(tree) / prune_ns(*to), row.ratio_to = to->name + "'s";
+    report.add(row);
+  };
+  for (const TreeCase& tree : cases.random) {
+    const TreeCase* to = &tree == cases.reference ? nullptr : cases.reference;
+    add_building_rows(report, tree, to);
+    add_prune_row(tree, to);
+  }
+  const TreeCase& balanced = cases.shapes.front();
+  add_building_rows(report, balanced, nullptr);
+  add_prune_row(balanced, nullptr);
+  add_building_rows(report, cases.shapes.back(), nullptr);
+  add_prune_row(cases.shapes.back(), &balanced);
+}
+
+}  // namespace cambium::bench
