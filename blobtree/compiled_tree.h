@@ -91,6 +91,10 @@ struct CompiledTree : std::enable_shared_from_this<CompiledTree> {
   BoxIndex index;                  ///< over atom bounds
   AncestorIndex ancestors;         ///< lowest common ancestors of atoms
 
+  /// World box outside of which an atom plays no part.
+  Box bounds_of(std::uint32_t atom) const { return atoms[atom].bounds; }
+  /// Smallest surface radius along an atom, metres; infinite for a half-space.
+  double radius_of(std::uint32_t atom) const { return atoms[atom].radius; }
   /// The shape of a chain's atom, and of a primitive node.
   SweptSegment<double> segment_of(std::uint32_t atom) const { return segments[atoms[atom].segment]; }
   CompiledPrimitive primitive_of(const CompiledNode& node) const { return primitives[node.payload]; }

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace cambium {
 
 struct CompiledTree;  // private to blobtree/
 struct Tape;
+struct CoverOptions;
+struct RunOptions;
+class SurfaceCover;
 
 /// Field value and its analytic gradient (1/m). The outward normal is -gradient/|gradient|.
 struct Sample {
@@ -60,6 +64,7 @@ class PrunedField {
   friend class Field;
   friend class Evaluator;
   friend class SurfaceCover;
+  friend class CoverRun;
   friend class CellSearch;
   PrunedField(const CompiledTree& tree, const Tape& tape, std::shared_ptr<const void> owner, const Box& box);
   const CompiledTree* tree_ = nullptr;
@@ -98,6 +103,7 @@ class Field {
 
  private:
   friend class CellSearch;
+  friend std::optional<SurfaceCover> cover_surface(const Field&, const CoverOptions&, const RunOptions&);
   std::shared_ptr<const CompiledTree> tree_;
 };
 

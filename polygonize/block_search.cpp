@@ -1,6 +1,6 @@
 #include "polygonize/block_search.h"
 
-#include "polygonize/progress_meter.h"
+#include "blobtree/progress_meter.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>

@@ -6,7 +6,7 @@
 #include "polygonize/cell_blocks.h"
 #include "polygonize/lattice.h"
 #include "polygonize/mesh_components.h"
-#include "polygonize/progress_meter.h"
+#include "blobtree/progress_meter.h"
 #include "polygonize/voxel_choice.h"
 
 #include <tbb/enumerable_thread_specific.h>

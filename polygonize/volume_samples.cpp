@@ -3,7 +3,7 @@
 #include "blobtree/input_error.h"
 #include "polygonize/block_contour.h"
 #include "polygonize/block_search.h"
-#include "polygonize/progress_meter.h"
+#include "blobtree/progress_meter.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>

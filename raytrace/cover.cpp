@@ -54,7 +54,7 @@ double smallest_radius(const Field& field, const ActiveSet& active) {
 
 class Subdivision {
  public:
-  Subdivision(const Field& field, const CoverOptions& options) : field_(field), options_(options) {
+  Subdivision(const Field& field, const TraceCoverOptions& options) : field_(field), options_(options) {
     // A cell below this is never halved: 2^-20 of the whole is below a pixel of any picture of it.
     floor_ = longest_edge(field.bounds()) * 0x1p-20;
   }
@@ -89,13 +89,13 @@ class Subdivision {
 
  private:
   const Field& field_;
-  const CoverOptions& options_;
+  const TraceCoverOptions& options_;
   double floor_ = 0;
 };
 
 }  // namespace
 
-std::optional<std::vector<PrunedField>> cover_surface(const Field& field, const CoverOptions& options, const RunOptions& run) {
+std::optional<std::vector<PrunedField>> cover_for_tracing(const Field& field, const TraceCoverOptions& options, const RunOptions& run) {
   std::vector<PrunedField> leaves;
   if (field.bounds().empty()) return leaves;
   const Subdivision subdivision(field, options);

@@ -208,7 +208,7 @@ void check(const RenderOptions& options) {
 std::optional<Rendered> render_in_arena(const Field& field, const RenderOptions& options, const RunOptions& run) {
   Rendered out;
   const auto cover_start = Clock::now();
-  auto cells = cover_surface(field, CoverOptions{}, run);
+  auto cells = cover_for_tracing(field, TraceCoverOptions{}, run);
   if (!cells) return std::nullopt;
   out.report.cells = cells->size();
 

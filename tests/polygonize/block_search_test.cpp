@@ -1,6 +1,6 @@
 #include "polygonize/block_search.h"
 
-#include "polygonize/progress_meter.h"
+#include "blobtree/progress_meter.h"
 #include "tests/polygonize/sample_fields.h"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 namespace cambium {
 namespace {
 
-std::vector<PrunedField> covered(const Field& field) { return *cover_surface(field, {}, {}); }
+std::vector<PrunedField> covered(const Field& field) { return *cover_for_tracing(field, {}, {}); }
 
 TEST(Cover, CellsAreDisjointAndHoldEverySurfacePoint) {
   const Field field = scenes::forked();
@@ -61,9 +61,9 @@ TEST(Cover, AStraightThinTwigNeedsFewCells) {
 }
 
 TEST(Cover, StopsAtItsLimitWithLargerCells) {
-  CoverOptions options;
+  TraceCoverOptions options;
   options.max_cells = 40;
-  const auto cells = *cover_surface(scenes::forked(), options, {});
+  const auto cells = *cover_for_tracing(scenes::forked(), options, {});
   EXPECT_LE(cells.size(), 40u);
   EXPECT_GE(cells.size(), 5u);
 }
@@ -72,7 +72,7 @@ TEST(Cover, GivesNothingWhenCancelled) {
   const std::atomic<bool> cancel{true};
   RunOptions run;
   run.cancel = &cancel;
-  EXPECT_FALSE(cover_surface(scenes::forked(), {}, run));
+  EXPECT_FALSE(cover_for_tracing(scenes::forked(), {}, run));
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+// The surface as a set of cells, each with its pruned field, kept compactly: cells with the same primitives share one tape.
+#pragma once
+
+#include "blobtree/cell_search.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cambium {
+
+struct CoverOptions {
+  /// Edge of every cell, metres. Unset: cells follow the branches, by the lengths below.
+  std::optional<double> cell;
+  /// In smallest active surface radii of the cell itself, so a trunk gets large cells and a twig small ones: its longest edge where
+  /// many primitives meet, and where at most sparse_atoms are active: a straight thin twig needs few cells.
+  double cell_radii = 1.6;
+  double sparse_radii = 8;
+  std::size_t sparse_atoms = 4;
+  /// Where the lengths above would give more, they are raised for all cells: rays get slower, never wrong. With `cell` set: an error.
+  std::size_t max_cells = 60'000'000;
+};
+
+/// Immutable, shared by threads. Keeps its Field's compiled tree alive.
+class SurfaceCover {
+ public:
+  SurfaceCover() = default;
+  std::size_t size() const { return cells_.size(); }
+  bool empty() const { return cells_.empty(); }
+  /// The part of the cell where its primitives have support. Disjoint (touching) boxes; together they hold the whole surface
+  /// f = kIso.
+  Box box(std::size_t cell) const;
+  /// Exact inside box(cell). Valid while the cover lives. Cheap; no allocation.
+  PrunedField field(std::size_t cell) const;
+  /// Of everything it holds, the Field not counted.
+  std::size_t memory_bytes() const;
+  std::size_t tape_count() const { return tape_count_; }
+
+ private:
+  friend class CoverRun;
+  friend std::optional<SurfaceCover> cover_surface(const Field&, const CoverOptions&, const RunOptions&);
+  struct Cell {
+    const Tape* tape = nullptr;
+    CellPlace place{};
+    std::uint8_t level = 0;
+    std::array<std::uint8_t, 6> occupied{};   ///< lo and hi of the box within the cube, in 255ths, rounded outwards
+  };
+  class TapeStore;
+  std::shared_ptr<const CompiledTree> tree_;
+  CellGrid grid_;
+  std::vector<Cell> cells_;
+  std::vector<std::shared_ptr<const TapeStore>> stores_;
+  std::size_t tape_count_ = 0;
+};
+
+/// Cells in Morton order. nullopt if cancelled. The same at any thread count. Errors: InputError for a cell size that is not a
+/// length, too fine for the field's bounds, or giving more than max_cells. Cost and memory: proportional to the cells.
+std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions& options, const RunOptions& run);
+
+}  // namespace cambium
