@@ -3,6 +3,9 @@
 
 #include "blobtree/skeleton_primitives.h"
 
+#include <cmath>
+#include <type_traits>
+
 namespace cambium {
 
 template <class T>
@@ -22,6 +25,9 @@ template <class T> Dual<T> operator/(const Dual<T>& a, const Dual<T>& b) {
   const T q = a.f / b.f;
   return {q, (a.g - q * b.g) / b.f};
 }
+
+template <class T> Dual<T> operator*(const Dual<T>& a, std::type_identity_t<T> b) { return {a.f * b, a.g * b}; }
+template <class T> Dual<T> operator/(const Dual<T>& a, std::type_identity_t<T> b) { return {a.f / b, a.g / b}; }
 
 template <class N>
 struct NumberOf {
@@ -46,6 +52,11 @@ N with_gradient(typename NumberOf<N>::type value, const Vec<typename NumberOf<N>
     return N(value, gradient);
   }
 }
+
+/// c ? a : b, and short cuts, as operator_rules-inl.h asks for them.
+template <class N> N select(bool c, const N& a, const N& b) { return c ? a : b; }
+inline bool all(bool c) { return c; }
+inline bool none(bool c) { return !c; }
 
 /// a^e for a >= 0.
 template <class T>

@@ -1,6 +1,7 @@
 // What an Evaluator keeps between calls. Private to blobtree/.
 #pragma once
 
+#include "blobtree/batch.h"
 #include "blobtree/field.h"
 #include "blobtree/interpreter.h"
 #include "blobtree/surface_traits.h"
@@ -50,11 +51,10 @@ struct Evaluator::Scratch {
   std::vector<Vec3> points;                 ///< the query point in each frame, frame 0 first
   std::vector<UnwarpedBall> balls;
   TapeScratch<double> numbers;
-  TapeScratch<float> floats;
   TapeScratch<Dual<double>> duals;
-  TapeScratch<Dual<float>> float_duals;
   TapeScratch<Interval> intervals;
   TapeScratch<TraitedValue> traits;
+  BatchScratch batch;
 
   static TapeView view(const CompiledTree& tree, const Tape& tape) {
     return {tree, tape.instructions, tape.slots, tape.frames, tape.stack_size};

@@ -1,0 +1,302 @@
+// Compiled once for each set of vector instructions and chosen from at run time (Highway). Left out: SSSE3, which no machine of
+// note has without SSE4; the later AVX-512 sets, of which nothing here is used; SVE and RVV, whose vectors have no size and so can not be
+// members of Lanes.
+#ifndef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#endif
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "blobtree/batch_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h:
+#include "blobtree/lane_shapes-inl.h"
+
+#include "blobtree/batch_kernels.h"
+
+#include <algorithm>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace cambium {
+namespace HWY_NAMESPACE {
+
+/// The weights of a fork's laterals, each worked out as it is asked for.
+template <class N>
+struct Weights {
+  using T = typename NumberOf<N>::type;
+  const LocalLateral<T>* laterals;
+  LaneVector<T> p;
+  HWY_INLINE N operator[](std::size_t k) const;
+};
+
+#define CAMBIUM_RULE_ATTRIBUTES HWY_ATTR
+#include "blobtree/operator_rules-inl.h"
+#undef CAMBIUM_RULE_ATTRIBUTES
+
+template <class N>
+HWY_INLINE N Weights<N>::operator[](std::size_t k) const {
+  const LocalLateral<T>& lateral = laterals[k];
+  const LaneVector<T> m = broadcast(lateral.direction), q = p - broadcast(lateral.point);
+  const Lanes<T> d = root(dot(q, q));
+  const Lanes<T> per_d = or_zero(d > Lanes<T>(0), Lanes<T>(1) / d);
+  return contact_weight(with_gradient<N>(dot(q, m), m), with_gradient<N>(d, per_d * q), lateral.half_per_softness, lateral.reach,
+                        lateral.per_reach);
+}
+
+/// One program over one batch. N: Lanes<T> for values, LaneDual<T> for values and gradients.
+template <class N>
+class BatchRun {
+ public:
+  using T = typename NumberOf<N>::type;
+
+  BatchRun(const BatchProgram<T>& program, ChunkMemory& memory, const BatchArrays& batch) : program_(program), batch_(batch) {
+    const std::size_t arrays = 3 * program.frames.size() + Slot<N>::kArrays * program.slot_count;
+    const std::size_t fitting = kCacheBytes / (sizeof(T) * arrays) / kPadding * kPadding;
+    capacity_ = std::clamp(fitting, kPadding, kLargestChunk);
+    capacity_ = std::min(capacity_, (batch.n + kPadding - 1) / kPadding * kPadding);
+    stride_ = capacity_ + kPadding;   // a whole number of pages would make loads wait for stores to other arrays
+    points_ = memory.at_least<T>(arrays * stride_);
+    slots_ = points_ + 3 * program.frames.size() * stride_;
+  }
+
+  void run() {
+    for (std::size_t begin = 0; begin < batch_.n; begin += capacity_) {
+      const std::size_t count = std::min(capacity_, batch_.n - begin);
+      n_ = (count + lane_count<T>() - 1) / lane_count<T>() * lane_count<T>();
+      take(batch_.x + begin, count, points_);
+      take(batch_.y + begin, count, points_ + stride_);
+      take(batch_.z + begin, count, points_ + 2 * stride_);
+      for (std::size_t k = 1; k < program_.frames.size(); ++k) enter_frame(k);
+      for (const Step& step : program_.steps) run_step(step);
+      give(slots_, count, batch_.f + begin);
+      if constexpr (kGradient) {
+        give(slots_ + stride_, count, batch_.gx + begin);
+        give(slots_ + 2 * stride_, count, batch_.gy + begin);
+        give(slots_ + 3 * stride_, count, batch_.gz + begin);
+      }
+    }
+  }
+
+ private:
+  static constexpr bool kGradient = std::is_same_v<N, LaneDual<T>>;
+  static constexpr std::size_t kPadding = 16;          // lanes of the widest vectors
+  static constexpr std::size_t kLargestChunk = 256;    // 64 and 512 are up to 10 % slower
+  static constexpr std::size_t kCacheBytes = 24 * 1024;
+
+  /// Ends that fill no vector repeat the last point.
+  void take(const float* from, std::size_t count, T* to) const {
+    std::size_t i = 0;
+    for (; i < count; ++i) to[i] = static_cast<T>(from[i]);
+    for (; i < n_; ++i) to[i] = to[count - 1];
+  }
+  static void give(const T* from, std::size_t count, float* to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]);
+  }
+
+  T* axis(std::size_t frame, int k) const { return points_ + (3 * frame + static_cast<std::size_t>(k)) * stride_; }
+  HWY_INLINE LaneVector<T> point(std::size_t frame, std::size_t i) const {
+    const T* const x = points_ + 3 * frame * stride_ + i;
+    return {load(x), load(x + stride_), load(x + 2 * stride_)};
+  }
+  HWY_INLINE Slot<N> slot(std::size_t k) const { return {slots_ + k * Slot<N>::kArrays * stride_, stride_}; }
+  Vec3 absolute(std::size_t frame, std::size_t i) const {
+    return program_.frames[frame].origin + Vec3(axis(frame, 0)[i], axis(frame, 1)[i], axis(frame, 2)[i]);
+  }
+
+  void enter_frame(std::size_t k) {
+    const LocalFrame<T>& frame = program_.frames[k];
+    if (frame.linear) {
+      const LaneVector<T> x = broadcast(frame.matrix[0]), y = broadcast(frame.matrix[1]), z = broadcast(frame.matrix[2]);
+      for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
+        const LaneVector<T> p = point(frame.outside, i);
+        store(dot(x, p), axis(k, 0) + i);
+        store(dot(y, p), axis(k, 1) + i);
+        store(dot(z, p), axis(k, 2) + i);
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < n_; ++i) {
+      const Vec3 q = unwarp(frame.warp, absolute(frame.outside, i)) - frame.origin;
+      for (int a = 0; a < 3; ++a) axis(k, a)[i] = static_cast<T>(q[a]);
+    }
+  }
+
+  /// Gradients inside a warp, seen from outside.
+  void leave_frame(const Step& step) {
+    if constexpr (kGradient) {
+      const LocalFrame<T>& frame = program_.frames[step.frame];
+      const Slot<N> to = slot(step.slot);
+      if (frame.linear) {
+        const LaneVector<T> x = broadcast(frame.matrix[0]), y = broadcast(frame.matrix[1]), z = broadcast(frame.matrix[2]);
+        for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
+          const N in = to.get(i);
+          to.put(i, with_gradient<N>(in.f, in.x * x + in.y * y + in.z * z));
+        }
+        return;
+      }
+      for (std::size_t i = 0; i < n_; ++i) {
+        T *const gx = to.at + stride_ + i, *const gy = gx + stride_, *const gz = gy + stride_;
+        const Vec3 g = pull_back(frame.warp, absolute(frame.outside, i), Vec3(*gx, *gy, *gz));
+        *gx = static_cast<T>(g.x), *gy = static_cast<T>(g.y), *gz = static_cast<T>(g.z);
+      }
+    }
+  }
+
+  HWY_INLINE static void finish(const Slot<N>& to, std::size_t i, bool adds, const N& value) {
+    to.put(i, adds ? to.get(i) + value : value);
+  }
+
+  template <class Shape, class Local>
+  HWY_NOINLINE void primitive(const Step& step, const Local& local) const {
+    const Shape shape(local);
+    const Slot<N> to = slot(step.slot);
+    const Lanes<T> per_support(local.falloff.inverse_square_support), strength(local.falloff.strength);
+    const Lanes<T> slope = Lanes<T>(-6) * strength * per_support;
+    for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
+      const Offset<T> o = shape.template offset<kGradient>(point(step.frame, i));
+      const Lanes<T> s = larger(Lanes<T>(1) - o.square * per_support, Lanes<T>(0)), s2 = s * s;
+      if constexpr (kGradient) {
+        finish(to, i, step.adds, with_gradient<N>(s2 * (s * strength), (s2 * slope) * o.vector));
+      } else {
+        finish(to, i, step.adds, s2 * (s * strength));
+      }
+    }
+  }
+
+  HWY_NOINLINE void chain(const Step& step) const {
+    const LocalSwept<T>* const segments = program_.swept.data() + step.first;
+    const Slot<N> to = slot(step.slot);
+    constexpr T kPerSupport = static_cast<T>(kRadiusPerSupport * kRadiusPerSupport);
+    const Lanes<T> strength(step.width), slope = Lanes<T>(-6 * kPerSupport) * strength;
+    for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
+      const LaneVector<T> p = point(step.frame, i);
+      SweptNearest<T> best = swept<T, kGradient>(segments[0], p);
+      for (std::uint32_t k = 1; k < step.count; ++k) best = nearer<T, kGradient>(best, swept<T, kGradient>(segments[k], p));
+      const Lanes<T> x2 = best.square / best.radius_square;
+      const Lanes<T> s = larger(Lanes<T>(1) - x2 * Lanes<T>(kPerSupport), Lanes<T>(0)), s2 = s * s;
+      if constexpr (kGradient) {
+        finish(to, i, step.adds, with_gradient<N>(s2 * (s * strength), (s2 * slope / best.radius_square) * best.vector));
+      } else {
+        finish(to, i, step.adds, s2 * (s * strength));
+      }
+    }
+  }
+
+  void half_space(const Step& step) const {
+    const LocalHalfSpace<T>& k = program_.half_spaces[step.first];
+    const LaneVector<T> on_plane = broadcast(k.point), normal = broadcast(k.normal);
+    const Lanes<T> per_two_widths(k.inverse_two_widths);
+    const LaneVector<T> slope = (Lanes<T>(0) - per_two_widths) * normal;
+    const Slot<N> to = slot(step.slot);
+    for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
+      const Lanes<T> t = Lanes<T>(0.5) - dot(point(step.frame, i) - on_plane, normal) * per_two_widths;
+      const N ramp = select(t < Lanes<T>(1), with_gradient<N>(t, slope), N(1));
+      finish(to, i, step.adds, select(t > Lanes<T>(0), ramp, N(0)));
+    }
+  }
+
+  /// slot = rule(its children), for all lanes.
+  template <class Rule>
+  HWY_INLINE void combine(const Step& step, const Rule& rule) const {
+    const Slot<N> to = slot(step.slot);
+    for (std::size_t i = 0; i < n_; i += lane_count<T>()) to.put(i, rule(Operands<N>{to, i}, i));
+  }
+
+  void run_step(const Step& step) {
+    const std::size_t n = step.count;
+    switch (step.kind) {
+      case StepKind::kPoint: primitive<PointLanes<T>>(step, program_.points[step.first]); break;
+      case StepKind::kSegment: primitive<SegmentLanes<T>>(step, program_.segments[step.first]); break;
+      case StepKind::kCone: primitive<ConeLanes<T>>(step, program_.cones[step.first]); break;
+      case StepKind::kDisc: primitive<RingLanes<T, true>>(step, program_.rings[step.first]); break;
+      case StepKind::kCircle: primitive<RingLanes<T, false>>(step, program_.rings[step.first]); break;
+      case StepKind::kBox: primitive<BoxLanes<T>>(step, program_.boxes[step.first]); break;
+      case StepKind::kHalfSpace: half_space(step); break;
+      case StepKind::kChain: chain(step); break;
+      case StepKind::kAdd: combine(step, [](const Operands<N>& f, std::size_t) HWY_ATTR { return f[0] + f[1]; }); break;
+      case StepKind::kUnion:
+        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return max_of(f, n, step.with_zero); });
+        break;
+      case StepKind::kIntersection:
+        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return min_of(f, n, step.with_zero); });
+        break;
+      case StepKind::kDifference:
+        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR {
+          return difference_of(step.has_first ? f[0] : N(0), f + step.has_first, n - step.has_first, step.with_zero);
+        });
+        break;
+      case StepKind::kRicci:
+        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return ricci_of(f, n, step.width); });
+        break;
+      case StepKind::kContact:
+        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR {
+          return contact_of(f, n, step.with_zero, step.width, step.lip);
+        });
+        break;
+      case StepKind::kFork:
+        combine(step, [&](const Operands<N>& f, std::size_t i) HWY_ATTR {
+          const Weights<N> weights{program_.laterals.data() + step.first, point(step.frame, i)};
+          return fork_of(step.has_first ? f[0] : N(0), f + step.has_first, weights, n - step.has_first, step.with_zero, step.width,
+                         step.lip);
+        });
+        break;
+      case StepKind::kScale:
+        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return f[0] * Lanes<T>(step.width); });
+        break;
+      case StepKind::kWarp: leave_frame(step); break;
+    }
+  }
+
+  const BatchProgram<T>& program_;
+  const BatchArrays& batch_;
+  T* points_ = nullptr;
+  T* slots_ = nullptr;
+  std::size_t capacity_ = 0, stride_ = 0, n_ = 0;
+};
+
+void float_values(const BatchProgram<float>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  BatchRun<Lanes<float>>(program, memory, batch).run();
+}
+void float_samples(const BatchProgram<float>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  BatchRun<LaneDual<float>>(program, memory, batch).run();
+}
+void double_values(const BatchProgram<double>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  BatchRun<Lanes<double>>(program, memory, batch).run();
+}
+void double_samples(const BatchProgram<double>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  BatchRun<LaneDual<double>>(program, memory, batch).run();
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+}  // namespace HWY_NAMESPACE
+}  // namespace cambium
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cambium {
+
+HWY_EXPORT(float_values);
+HWY_EXPORT(float_samples);
+HWY_EXPORT(double_values);
+HWY_EXPORT(double_samples);
+
+template <>
+void run_values(const BatchProgram<float>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  HWY_DYNAMIC_DISPATCH(float_values)(program, memory, batch);
+}
+template <>
+void run_samples(const BatchProgram<float>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  HWY_DYNAMIC_DISPATCH(float_samples)(program, memory, batch);
+}
+template <>
+void run_values(const BatchProgram<double>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  HWY_DYNAMIC_DISPATCH(double_values)(program, memory, batch);
+}
+template <>
+void run_samples(const BatchProgram<double>& program, ChunkMemory& memory, const BatchArrays& batch) {
+  HWY_DYNAMIC_DISPATCH(double_samples)(program, memory, batch);
+}
+
+std::int64_t compiled_vector_targets() { return HWY_TARGETS; }
+
+}  // namespace cambium
+#endif  // HWY_ONCE

@@ -1,0 +1,297 @@
+#include "blobtree/batch_program.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace cambium {
+namespace {
+
+/// Rounding moves a value by about 4e-7 * (distance from the shape's anchor / support radius); this keeps it below 3e-5.
+constexpr double kLargestRatio = 64;
+
+template <class T>
+void assign(T (&to)[3], const Vec3& v) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<T>(v[i]);
+}
+
+const Lateral& lateral_of(const TapeView& view, const CompiledNode& node, std::uint32_t k) {
+  return view.tree.blends[node.payload].laterals[k];
+}
+
+/// Places shapes relative to one origin and notes how hard they are for floats.
+template <class T>
+class ShapePlacer {
+ public:
+  ShapePlacer(BatchProgram<T>& out) : out_(out) {}
+
+  /// The space in which the following shapes are: its origin, and how far from it points may be.
+  void enter(const Vec3& origin, double reach) {
+    origin_ = origin;
+    reach_ = reach;
+  }
+  double largest_ratio() const { return largest_ratio_; }
+
+  void place(const CompiledPrimitive& p, Step& step) {
+    falloff_ = {static_cast<T>(p.inverse_support * p.inverse_support), static_cast<T>(p.strength)};
+    scale_ = p.inverse_support * std::max(1.0, std::abs(p.strength));
+    std::visit([&](const auto& shape) { add(shape, step); }, p.shape);
+  }
+
+  void add_segment(const SweptSegment<double>& k, double strength) {
+    const double s = nearest(k.a, k.axis, k.begin, k.end);
+    LocalSwept<T>& local = out_.swept.emplace_back();
+    const Vec3 anchor = k.a + s * k.axis - origin_;
+    assign(local.a, anchor);
+    assign(local.axis, k.axis);
+    local.begin = static_cast<T>(k.begin - s);
+    local.end = static_cast<T>(k.end - s);
+    local.radius = static_cast<T>(k.radius_at(s));
+    local.slope = static_cast<T>(k.slope);
+    const double away = reach_ + glm::length(anchor);
+    const double thinnest = std::max(std::min(k.radius_at(k.begin), k.radius_at(k.end)), k.radius_at(s) - std::abs(k.slope) * away);
+    note(away * kRadiusPerSupport / thinnest * std::max(1.0, std::abs(strength)));
+  }
+
+  void add(const CompiledHalfSpace& h, Step& step) {
+    step.kind = StepKind::kHalfSpace;
+    step.first = index(out_.half_spaces);
+    LocalHalfSpace<T>& local = out_.half_spaces.emplace_back();
+    assign(local.point, -glm::dot(origin_ - h.point, h.normal) * h.normal);   // of the plane, the nearest to the origin
+    assign(local.normal, h.normal);
+    local.inverse_two_widths = static_cast<T>(0.5 / h.width);
+    note(reach_ / h.width);
+  }
+
+  void add(const Lateral& l) {
+    LocalLateral<T>& local = out_.laterals.emplace_back();
+    assign(local.point, l.point - origin_);
+    assign(local.direction, l.direction);
+    local.half_per_softness = static_cast<T>(0.5 / l.softness);
+    local.reach = static_cast<T>(l.reach);
+    local.per_reach = static_cast<T>(1 / l.reach);
+    note(reach_ / l.softness);
+  }
+
+ private:
+  template <class Shapes>
+  static std::uint32_t index(const Shapes& shapes) {
+    return static_cast<std::uint32_t>(shapes.size());
+  }
+  double nearest(const Vec3& a, const Vec3& axis, double begin, double end) const {
+    return std::clamp(glm::dot(origin_ - a, axis), begin, end);
+  }
+  void note(double ratio) { largest_ratio_ = std::max(largest_ratio_, ratio); }
+
+  /// Notes a shape that is measured from `anchor`, and gives its kind and place to the step.
+  void begin(Step& step, StepKind kind, std::uint32_t at, const Vec3& anchor) {
+    step.kind = kind;
+    step.first = at;
+    note((reach_ + glm::length(anchor)) * scale_);
+  }
+
+  void add(const PointSkeleton<double>& k, Step& step) {
+    begin(step, StepKind::kPoint, index(out_.points), k.center - origin_);
+    LocalPoint<T>& local = out_.points.emplace_back();
+    assign(local.center, k.center - origin_);
+    local.falloff = falloff_;
+  }
+  void add(const SegmentSkeleton<double>& k, Step& step) {
+    const double s = nearest(k.a, k.axis, k.begin, k.end);
+    const Vec3 anchor = k.a + s * k.axis - origin_;
+    begin(step, StepKind::kSegment, index(out_.segments), anchor);
+    LocalSegment<T>& local = out_.segments.emplace_back();
+    assign(local.a, anchor);
+    assign(local.axis, k.axis);
+    local.begin = static_cast<T>(k.begin - s);
+    local.end = static_cast<T>(k.end - s);
+    local.falloff = falloff_;
+  }
+  void add(const ConeSkeleton<double>& k, Step& step) {
+    const double s = nearest(k.base, k.axis, 0, k.height), side = std::hypot(k.height, k.disc_radius);
+    const Vec3 anchor = k.base + s * k.axis - origin_;
+    begin(step, StepKind::kCone, index(out_.cones), anchor);
+    LocalCone<T>& local = out_.cones.emplace_back();
+    assign(local.a, anchor);
+    assign(local.axis, k.axis);
+    local.core = static_cast<T>(k.disc_radius * (1 - s / k.height));
+    local.tangent_rho = static_cast<T>(-k.disc_radius / side);
+    local.tangent_h = static_cast<T>(k.height / side);
+    local.side_begin = static_cast<T>(-s / k.height * side);
+    local.side_end = static_cast<T>((1 - s / k.height) * side);
+    local.base_h = static_cast<T>(-s);
+    local.disc_radius = static_cast<T>(k.disc_radius);
+    local.falloff = falloff_;
+  }
+  void add(const DiscSkeleton<double>& k, Step& step) { add_ring(StepKind::kDisc, k.center, k.normal, k.disc_radius, step); }
+  void add(const CircleSkeleton<double>& k, Step& step) { add_ring(StepKind::kCircle, k.center, k.normal, k.ring_radius, step); }
+  void add_ring(StepKind kind, const Vec3& center, const Vec3& normal, double radius, Step& step) {
+    begin(step, kind, index(out_.rings), center - origin_);
+    LocalRing<T>& local = out_.rings.emplace_back();
+    assign(local.center, center - origin_);
+    assign(local.normal, normal);
+    local.radius = static_cast<T>(radius);
+    local.falloff = falloff_;
+  }
+  void add(const BoxSkeleton<double>& k, Step& step) {
+    begin(step, StepKind::kBox, index(out_.boxes), k.center - origin_);
+    LocalBox<T>& local = out_.boxes.emplace_back();
+    assign(local.center, k.center - origin_);
+    assign(local.half_size, k.half_size);
+    for (int i = 0; i < 3; ++i) assign(local.axes[i], k.world_from_box[i]);
+    local.falloff = falloff_;
+  }
+
+  BatchProgram<T>& out_;
+  Vec3 origin_{0.0};
+  double reach_ = 0, scale_ = 1, largest_ratio_ = 0;
+  LocalFalloff<T> falloff_{};
+};
+
+/// False if points in a warp's space are not linear in those outside.
+template <class T>
+bool add_frame(const Warp& warp, std::uint32_t outside, BatchProgram<T>& out) {
+  LocalFrame<T>& frame = out.frames.emplace_back();
+  frame.outside = outside;
+  frame.origin = unwarp(warp, out.frames[outside].origin);
+  const RigidWarp* const rigid = std::get_if<RigidWarp>(&warp);
+  frame.linear = rigid != nullptr;
+  if (!rigid) {
+    frame.warp = warp;
+    return false;
+  }
+  for (int i = 0; i < 3; ++i) assign(frame.matrix[i], rigid->axes[i] / rigid->scale);   // rows of the transposed
+  return true;
+}
+
+bool is_leaf(Op op) { return op == Op::kPrimitive || op == Op::kHalfSpace || op == Op::kChain; }
+
+}  // namespace
+
+template <class T>
+void BatchProgram<T>::clear() {
+  steps.clear();
+  frames.clear();
+  points.clear();
+  segments.clear();
+  cones.clear();
+  rings.clear();
+  boxes.clear();
+  half_spaces.clear();
+  swept.clear();
+  laterals.clear();
+  slot_count = 0;
+}
+
+void BatchCompiler::find_consumers(const TapeView& view) {
+  consumers_.assign(view.tape.size(), {static_cast<std::uint32_t>(view.tape.size()), 0});   // the last value has none
+  stack_.clear();
+  for (std::uint32_t at = 0; at < view.tape.size(); ++at) {
+    const Instruction& in = view.tape[at];
+    if (!is_leaf(in.op)) {
+      const std::size_t begin = stack_.size() - in.count;
+      for (std::uint32_t child = 0; child < in.count; ++child) consumers_[stack_[begin + child]] = {at, child};
+      stack_.resize(begin);
+    }
+    stack_.push_back(at);
+  }
+}
+
+template <class T>
+bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& origin, BatchProgram<T>& out) {
+  constexpr bool kFloat = std::is_same_v<T, float>;
+  if (kFloat && !box.bounded()) return false;
+  out.clear();
+  const double half = box.bounded() ? 0.5 * glm::length(box.size()) : 0;   // only asked for floats
+  out.frames.resize(1);
+  out.frames[0].origin = origin;
+  out.frames[0].linear = true;
+  for (std::size_t k = 1; k < view.frame_count(); ++k)
+    if (!add_frame(view.warp_of(k), view.outside_of(k), out) && kFloat) return false;   // sizes change from place to place
+  const auto reach_in = [&](std::uint32_t frame) {
+    double reach = half;
+    for (; frame > 0; frame = out.frames[frame].outside) {
+      const auto& row = out.frames[frame].matrix[0];
+      reach *= std::hypot(row[0], row[1], row[2]);
+    }
+    return reach;
+  };
+
+  find_consumers(view);
+  ShapePlacer<T> placer(out);
+  placer.enter(origin, half);
+  std::uint32_t frame = 0, top = 0;
+  for (std::uint32_t at = 0; at < view.tape.size(); ++at) {
+    const Instruction& in = view.tape[at];
+    const Op op = in.op;
+    const CompiledNode& node = view.tree.nodes[in.node];
+    if (in.frame != frame) placer.enter(out.frames[in.frame].origin, reach_in(in.frame));
+    frame = in.frame;
+    const Consumer& consumer = consumers_[at];
+    const bool adds = consumer.child > 0 && view.tape[consumer.instruction].op == Op::kSum;
+    Step step;
+    step.frame = in.frame;
+    step.count = in.count;
+    step.with_zero = in.with_zero;
+    if (is_leaf(op)) {
+      step.adds = adds;
+      step.slot = adds ? top - 1 : top++;
+      out.slot_count = std::max(out.slot_count, top);
+    } else if (op != Op::kSum) {   // the children of a sum have been added where its first one stands
+      top -= in.count;
+      step.slot = top++;
+    }
+    switch (op) {
+      case Op::kPrimitive: placer.place(view.tree.primitive_of(node), step); break;
+      case Op::kHalfSpace: placer.add(view.tree.half_spaces[node.payload], step); break;
+      case Op::kChain:
+        step.kind = StepKind::kChain;
+        step.width = view.tree.chain_strengths[node.payload];
+        step.first = static_cast<std::uint32_t>(out.swept.size());
+        for (std::uint32_t i = in.first; i < in.first + in.count; ++i)
+          placer.add_segment(view.tree.segment_of(view.slots[i]), step.width);
+        break;
+      case Op::kSum: break;
+      case Op::kUnion: step.kind = StepKind::kUnion; break;
+      case Op::kIntersection: step.kind = StepKind::kIntersection; break;
+      case Op::kDifference:
+        step.kind = StepKind::kDifference;
+        step.has_first = view.slots[in.first] == 0;
+        break;
+      case Op::kRicci:
+        step.kind = StepKind::kRicci;
+        step.width = view.tree.numbers[node.payload];
+        break;
+      case Op::kContact:
+      case Op::kFork:
+        step.kind = op == Op::kFork ? StepKind::kFork : StepKind::kContact;
+        step.width = view.tree.blends[node.payload].width;
+        step.lip = view.tree.blends[node.payload].lip;
+        if (op == Op::kContact) break;
+        step.has_first = view.slots[in.first] == 0;
+        step.first = static_cast<std::uint32_t>(out.laterals.size());
+        for (std::uint32_t i = step.has_first; i < in.count; ++i)
+          placer.add(lateral_of(view, node, view.slots[in.first + i] - 1));
+        break;
+      case Op::kScale:
+        step.kind = StepKind::kScale;
+        step.width = view.tree.numbers[node.payload];
+        break;
+      case Op::kWarp: step.kind = StepKind::kWarp; break;
+    }
+    if (op != Op::kSum) out.steps.push_back(step);
+    if (adds && !is_leaf(op)) {
+      Step add;
+      add.slot = --top - 1;
+      out.steps.push_back(add);
+    }
+  }
+  return !kFloat || placer.largest_ratio() <= kLargestRatio;
+}
+
+template struct BatchProgram<float>;
+template struct BatchProgram<double>;
+template bool BatchCompiler::compile(const TapeView&, const Box&, const Vec3&, BatchProgram<float>&);
+template bool BatchCompiler::compile(const TapeView&, const Box&, const Vec3&, BatchProgram<double>&);
+
+}  // namespace cambium
