@@ -64,7 +64,7 @@ bool read_arguments(int count, char** words, Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-  const Pace pace = arguments.quick ? Pace{4, 0.005, 100'000} : Pace{};
+  const Pace pace = arguments.quick ? Pace{4, 0.005, 100'000, 2} : Pace{};
   Report report;
   for (const Section& section : kSections) {
     bool wanted = arguments.only.empty();

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <deque>
+#include <vector>
 
 namespace cambium::bench {
 namespace {
@@ -15,6 +16,8 @@ namespace {
 constexpr std::size_t kPlaces = 2000;
 constexpr std::size_t kReference = 10'000;     // internodes; the ratios are to a tree of this size
 constexpr double kSameMemory = 1.05;           // vectors round their capacity up
+constexpr double kShared = 1e5;                // internodes; below, a cover takes too few milliseconds to be worth sharing out
+constexpr double kSameTime = 1.1;              // what two runs of the same work differ by on a shared machine
 
 struct Cases {
   std::deque<TreeCase> random;                 // ascending sizes
@@ -26,11 +29,11 @@ Cases make_cases(const Pace& pace) {
   Cases cases;
   for (std::size_t size = 1000; size <= pace.largest_tree; size *= 10) {
     const int power = static_cast<int>(std::lround(std::log10(static_cast<double>(size))));
-    cases.random.push_back(make_tree_case(fmt::format("random tree of 10^{}", power), random_tree(size, 5), kPlaces));
+    cases.random.push_back(make_tree_case(fmt::format("random tree of 10^{}", power), [&] { return random_tree(size, 5); }, kPlaces));
     if (size == kReference) cases.reference = &cases.random.back();
   }
-  cases.shapes.push_back(make_tree_case("balanced tree of 10^5", balanced_tree(100'000), kPlaces));
-  cases.shapes.push_back(make_tree_case("single axis of 10^5", single_axis(100'000), kPlaces));
+  cases.shapes.push_back(make_tree_case("balanced tree of 10^5", [] { return balanced_tree(100'000); }, kPlaces));
+  cases.shapes.push_back(make_tree_case("single axis of 10^5", [] { return single_axis(100'000); }, kPlaces));
   return cases;
 }
 
@@ -69,13 +72,73 @@ void add_building_rows(Report& report, const TreeCase& tree, const TreeCase* ref
     report.add({.what = "memory of the BlobTree, of 200 B", .figure = memory_per_internode(tree, memory_of(tree.tree)),
                 .unit = "B/internode", .target = at_most(200)});
   memory_row("memory of the Field", [](const TreeCase& of) -> const Field& { return of.field; });
-  report.add({.what = "primitives active in a cell", .figure = tree.mean_active, .unit = "on average"});
+  report.add({.what = "primitives active in a cell at an internode", .figure = tree.mean_active, .unit = "on average"});
+}
+
+/// Covers of all trees in turns: one round of all, then the next. What takes long is measured once.
+void time_covers(Cases& cases, const Pace& pace) {
+  std::vector<CoverTimings*> covers;
+  for (TreeCase& tree : cases.random) covers.push_back(&tree.cover);
+  for (TreeCase& tree : cases.shapes) covers.push_back(&tree.cover);
+  for (int round = 0; round < pace.cover_rounds; ++round)
+    for (CoverTimings* cover : covers) {
+      if (round > 0 && cover->spent() > pace.cover_seconds) continue;
+      cover->measure_cover(1);
+      cover->measure_batches();
+      if (cover->spent() < pace.cover_seconds) cover->measure_cover(2);
+      cover->release();
+    }
+}
+
+/// `to`: the tree that a cell's time is compared with, and the target of that.
+void add_cover_rows(Report& report, const TreeCase& tree, const TreeCase* to, Target target) {
+  const CoverTimings& cover = tree.cover;
+  const double cells = static_cast<double>(cover.cells());
+  report.add({.what = "surface cells", .figure = cells / 1e3, .unit = "thousand"});
+  report.add({.what = "edge of a cell", .figure = cover.mean_edge(), .unit = "branch diameters"});
+  report.add({.what = "primitives active in a cell", .figure = cover.mean_active(), .unit = "on average"});
+  Row cell{.what = "time per surface cell, 1 thread", .figure = cover.ns_per_cell(), .unit = "ns/cell"};
+  if (to) {
+    cell.ratio = cover.ns_per_cell() / to->cover.ns_per_cell();
+    cell.ratio_to = to->name + "'s";
+    cell.target = target;
+  }
+  report.add(cell);
+  report.add({.what = "memory of the cover", .figure = static_cast<double>(cover.memory_bytes()) / cells, .unit = "B/cell"});
+  report.add({.what = "cover, 1 thread", .figure = cover.seconds(1), .unit = "s"});
+  Row both{.what = "cover, 2 threads", .figure = cover.seconds(2), .unit = "s"};
+  both.ratio = cover.seconds(1) / cover.seconds(2);
+  both.ratio_to = "1 thread's speed";
+  Row busier{.what = "cover, 2 threads, processor time of the busier", .figure = cover.busier_thread_seconds(), .unit = "s"};
+  busier.ratio = cover.processor_seconds() / cover.busier_thread_seconds();
+  busier.ratio_to = "1 thread's speed";
+  const double share = cover.processor_seconds() / cover.seconds(1);
+  const bool disturbed = share < 0.9 && cover.busier_thread_seconds() > 0;
+  if (tree.internodes() >= kShared) (disturbed ? busier : both).target = at_least(1.8);
+  report.add(both);
+  if (cover.busier_thread_seconds() > 0) report.add(busier);
+  if (disturbed)
+    report.note(fmt::format("other programs were running: one thread had {:.0f} % of a processor, so seconds say little", 100 * share));
+  const double one = cover.batch_ns_per_point(1), two = cover.batch_ns_per_point(2);
+  report.add({.what = "batches over its cells, 1 thread", .figure = one, .unit = "ns/point"});
+  report.add({.what = "batches over its cells, 2 threads", .figure = two, .unit = "ns/point", .ratio = one / two,
+              .ratio_to = "1 thread's speed"});
+  Row whole{.what = "skeleton to cover, 2 threads", .unit = "s"};
+  whole.figure = tree.surface_seconds + tree.compile_seconds + cover.seconds(2);
+  Row peak{.what = "peak memory, skeleton to cover", .figure = static_cast<double>(tree.peak_bytes) / 1e9, .unit = "GB"};
+  if (tree.internodes() == 1e6) {
+    whole.target = at_most(60);
+    peak.target = at_most(8);
+  }
+  report.add(whole);
+  report.add(peak);
 }
 
 }  // namespace
 
 void trees_section(Report& report, const Pace& pace) {
-  const Cases cases = make_cases(pace);
+  Cases cases = make_cases(pace);
+  time_covers(cases, pace);
   Measurements measurements(pace);
   const auto measure = [&](const TreeCase& tree) {
     measurements.add(tree.name, [&tree] {
@@ -87,21 +150,20 @@ void trees_section(Report& report, const Pace& pace) {
   measurements.run();
 
   const auto prune_ns = [&](const TreeCase& tree) { return measurements.ns(tree.name) / kPlaces; };
-  const auto add_prune_row = [&](const TreeCase& tree, const TreeCase* to) {
-    Row row{.what = "prune, cells far from each other", .figure = prune_ns(tree), .unit = "ns/cell"};
-    if (to) row.ratio = prune_ns(tree) / prune_ns(*to), row.ratio_to = to->name + "'s";
-    report.add(row);
+  const auto add_tree = [&](const TreeCase& tree, const TreeCase* memory_to, const TreeCase* time_to, Target cell_target) {
+    add_building_rows(report, tree, memory_to);
+    Row prune{.what = "prune to such cells, far from each other", .figure = prune_ns(tree), .unit = "ns/cell"};
+    if (time_to) prune.ratio = prune_ns(tree) / prune_ns(*time_to), prune.ratio_to = time_to->name + "'s";
+    report.add(prune);
+    add_cover_rows(report, tree, time_to, cell_target);
   };
   for (const TreeCase& tree : cases.random) {
-    const TreeCase* to = &tree == cases.reference ? nullptr : cases.reference;
-    add_building_rows(report, tree, to);
-    add_prune_row(tree, to);
+    const TreeCase* to = tree.internodes() > kReference ? cases.reference : nullptr;
+    add_tree(tree, to, to, at_most(1.3));
   }
-  const TreeCase& balanced = cases.shapes.front();
-  add_building_rows(report, balanced, nullptr);
-  add_prune_row(balanced, nullptr);
-  add_building_rows(report, cases.shapes.back(), nullptr);
-  add_prune_row(cases.shapes.back(), &balanced);
+  const TreeCase &balanced = cases.shapes.front(), &axis = cases.shapes.back();
+  add_tree(balanced, nullptr, nullptr, {});
+  add_tree(axis, nullptr, &balanced, at_most(kSameTime));
 }
 
 }  // namespace cambium::bench
