@@ -9,16 +9,6 @@
 namespace cambium {
 namespace {
 
-std::uint64_t spread(std::uint64_t v) {   // 21 bits, two zeros between each
-  v &= 0x1fffff;
-  v = (v | v << 32) & 0x1f00000000ffffull;
-  v = (v | v << 16) & 0x1f0000ff0000ffull;
-  v = (v | v << 8) & 0x100f00f00f00f00full;
-  v = (v | v << 4) & 0x10c30c30c30c30c3ull;
-  v = (v | v << 2) & 0x1249249249249249ull;
-  return v;
-}
-
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 
 struct CellReference {
@@ -29,10 +19,6 @@ struct CellReference {
 bool owns_crossing(int mask, int axis) { return edge_crossed(mask, 4 * axis); }
 
 }  // namespace
-
-std::uint64_t block_key(const CellPlace& block) {
-  return spread(block[0]) | spread(block[1]) << 1 | spread(block[2]) << 2;
-}
 
 // A block and the 26 around it, looked up when first asked for.
 class CellConnectivity::Neighbourhood {
@@ -64,7 +50,7 @@ class CellConnectivity::Neighbourhood {
       if (step[a] < 0 && place[a] == 0) return kAbsent;
       place[a] += static_cast<std::uint32_t>(step[a]);
     }
-    const std::uint64_t key = block_key(place);
+    const std::uint64_t key = morton_key(place);
     const auto it = std::lower_bound(owner_.keys_.begin(), owner_.keys_.end(), key);
     if (it == owner_.keys_.end() || *it != key) return kAbsent;
     return static_cast<std::size_t>(it - owner_.keys_.begin());
@@ -77,7 +63,7 @@ class CellConnectivity::Neighbourhood {
 
 CellConnectivity::CellConnectivity(const std::vector<const CellBlock*>& blocks) : cells_(blocks) {
   keys_.reserve(blocks.size());
-  for (const CellBlock* block : blocks) keys_.push_back(block_key(block->place));
+  for (const CellBlock* block : blocks) keys_.push_back(morton_key(block->place));
   blocks_.resize(blocks.size());
 
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {

@@ -2,6 +2,7 @@
 // knows neither field nor coordinates, so any sign grid at all may be put through it.
 #pragma once
 
+#include "blobtree/cell_grid.h"
 #include "polygonize/cell_cycles.h"
 
 #include <array>
@@ -14,11 +15,6 @@ namespace cambium {
 inline constexpr int kBlockBits = 3;
 inline constexpr int kBlockCells = 1 << kBlockBits;             ///< cells along a block's edge
 inline constexpr int kCoordinateBits = 21;                      ///< of a cell, per axis
-
-using CellPlace = std::array<std::uint32_t, 3>;
-
-/// Morton order of blocks.
-std::uint64_t block_key(const CellPlace& block);
 
 /// 8 x 8 x 8 cells. Cell (x, y, z) is bit x + 8 y of occupied[z]; masks are in that order.
 struct CellBlock {
@@ -59,7 +55,7 @@ using Quad = std::array<std::uint32_t, 4>;
 /// Thread safe after construction.
 class CellConnectivity {
  public:
-  /// blocks: ascending by block_key, kept alive by the caller. threads as in the current arena.
+  /// blocks: ascending by morton_key, kept alive by the caller. threads as in the current arena.
   explicit CellConnectivity(const std::vector<const CellBlock*>& blocks);
 
   std::uint32_t vertex_count() const { return vertex_count_; }

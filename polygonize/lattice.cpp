@@ -10,24 +10,18 @@
 namespace cambium {
 
 Lattice make_lattice(const Box& bounds, double voxel) {
-  Lattice lattice;
-  lattice.voxel = voxel;
-  const double block = voxel * kBlockCells;
+  const double block = voxel * kBlockCells;   // exact, so blocks begin at multiples of the voxel
   const double most = static_cast<double>(std::uint64_t{1} << (kCoordinateBits - kBlockBits));
-  double needed = 1;
   for (int a = 0; a < 3; ++a) {
-    const double low = std::floor(bounds.lo[a] / block) - 1, high = std::floor(bounds.hi[a] / block) + 2;
+    const double across = bounds.hi[a] - bounds.lo[a];
     // Far from the origin doubles must still tell neighbouring corners apart.
-    const bool countable = std::max(std::abs(low), std::abs(high)) < 1e12;
-    if (!(high - low <= most) || !countable) {
-      throw InputError({}, fmt::format("a voxel of {:g} m for a model {:g} m across", voxel, bounds.hi[a] - bounds.lo[a]),
+    const bool countable = std::max(std::abs(bounds.lo[a]), std::abs(bounds.hi[a])) / block + 2 < 1e12;
+    if (!(across / block + 4 <= most) || !countable) {
+      throw InputError({}, fmt::format("a voxel of {:g} m for a model {:g} m across", voxel, across),
                        fmt::format("a voxel that divides it into fewer than {} cells", 1 << kCoordinateBits));
     }
-    lattice.first[a] = static_cast<std::int64_t>(low) * kBlockCells;
-    needed = std::max(needed, high - low);
   }
-  while (static_cast<double>(std::uint64_t{1} << lattice.levels) < needed) ++lattice.levels;
-  return lattice;
+  return {voxel, cell_grid(bounds, block)};
 }
 
 void require_length(double value, const char* what) {

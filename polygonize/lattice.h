@@ -2,7 +2,7 @@
 // same coordinates to the last bit in every block.
 #pragma once
 
-#include "blobtree/geometry.h"
+#include "blobtree/cell_grid.h"
 #include "polygonize/cell_blocks.h"
 
 #include <cstdint>
@@ -10,23 +10,19 @@
 namespace cambium {
 
 struct Lattice {
-  double voxel = 0;                       ///< metres
-  std::array<std::int64_t, 3> first{};    ///< global index of corner 0 of block (0, 0, 0): a multiple of kBlockCells
-  int levels = 0;                         ///< the root cube has 2^levels blocks along its edge
+  double voxel = 0;      ///< metres
+  CellGrid blocks;       ///< its level-0 cells are blocks of kBlockCells voxels along their edge
 
+  /// Global index of corner 0 of block (0, 0, 0): a multiple of kBlockCells.
+  std::int64_t first(int axis) const { return blocks.first[axis] * kBlockCells; }
   /// World point of a corner counted from `first`.
   Vec3 point(std::uint64_t x, std::uint64_t y, std::uint64_t z) const {
-    return {voxel * static_cast<double>(first[0] + static_cast<std::int64_t>(x)),
-            voxel * static_cast<double>(first[1] + static_cast<std::int64_t>(y)),
-            voxel * static_cast<double>(first[2] + static_cast<std::int64_t>(z))};
+    return {voxel * static_cast<double>(first(0) + static_cast<std::int64_t>(x)),
+            voxel * static_cast<double>(first(1) + static_cast<std::int64_t>(y)),
+            voxel * static_cast<double>(first(2) + static_cast<std::int64_t>(z))};
   }
-  /// Box of 2^level blocks cubed whose lowest block is `place`.
-  Box box(const CellPlace& place, int level) const {
-    const std::uint64_t n = std::uint64_t{kBlockCells} << level;
-    const std::uint64_t x = std::uint64_t{place[0]} * kBlockCells, y = std::uint64_t{place[1]} * kBlockCells,
-                        z = std::uint64_t{place[2]} * kBlockCells;
-    return {point(x, y, z), point(x + n, y + n, z + n)};
-  }
+  /// Its corners are points of the lattice, to the last bit.
+  Box box(const CellPlace& block) const { return blocks.box(block, 0); }
 };
 
 /// Covers `bounds` with at least a block to spare on every side. Errors: InputError if that takes more cells along an axis than

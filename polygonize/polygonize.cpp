@@ -1,12 +1,12 @@
 #include "polygonize/polygonize.h"
 
+#include "blobtree/cell_search.h"
 #include "blobtree/input_error.h"
+#include "blobtree/progress_meter.h"
 #include "polygonize/block_contour.h"
-#include "polygonize/block_search.h"
 #include "polygonize/cell_blocks.h"
 #include "polygonize/lattice.h"
 #include "polygonize/mesh_components.h"
-#include "blobtree/progress_meter.h"
 #include "polygonize/voxel_choice.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -54,14 +54,14 @@ Survey survey(const Field& field, const Lattice& lattice, const PolygonizeOption
     const std::lock_guard lock(mutex);
     result.blocks.push_back(std::move(block));
   };
-  const bool complete = search_blocks(field, lattice, holds_surface, visit, run, progress, &stop);
+  const bool complete = visit_cells(field, lattice.blocks, Wanted::kSurface, visit, run, progress, &stop);
   result.triangles = triangles;
   result.too_many = stop;
   result.cancelled = !complete && !stop;
   if (run.cancelled()) result.cancelled = true;
   if (complete) {
     tbb::parallel_sort(result.blocks.begin(), result.blocks.end(), [](const auto& a, const auto& b) {
-      return block_key(a->cells.place) < block_key(b->cells.place);
+      return morton_key(a->cells.place) < morton_key(b->cells.place);
     });
   }
   return result;

@@ -1,9 +1,9 @@
 #include "polygonize/volume_samples.h"
 
+#include "blobtree/cell_search.h"
 #include "blobtree/input_error.h"
-#include "polygonize/block_contour.h"
-#include "polygonize/block_search.h"
 #include "blobtree/progress_meter.h"
+#include "polygonize/block_contour.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
@@ -19,9 +19,10 @@ namespace {
 
 Lattice make_indexed_lattice(const Field& field, double voxel) {
   const Lattice lattice = make_lattice(field.bounds(), voxel);
-  for (const std::int64_t first : lattice.first) {
+  for (int a = 0; a < 3; ++a) {
     constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max() - (std::int64_t{2} << kCoordinateBits);
-    if (std::abs(first) > kMost) throw InputError({}, "a model too far from the origin for this voxel", "32-bit voxel indices");
+    if (std::abs(lattice.first(a)) > kMost)
+      throw InputError({}, "a model too far from the origin for this voxel", "32-bit voxel indices");
   }
   return lattice;
 }
@@ -29,16 +30,15 @@ Lattice make_indexed_lattice(const Field& field, double voxel) {
 std::array<std::int32_t, 3> first_voxel(const Lattice& lattice, const CellPlace& place) {
   std::array<std::int32_t, 3> first{};
   for (int a = 0; a < 3; ++a) {
-    first[a] = static_cast<std::int32_t>(lattice.first[a] + std::int64_t{place[a]} * kBlockCells);
+    first[a] = static_cast<std::int32_t>(lattice.first(a) + std::int64_t{place[a]} * kBlockCells);
   }
   return first;
 }
 
 // Runs a search whose visitor makes one Result per block, and returns them in Morton order.
 template <class Result, class Make>
-std::optional<std::vector<std::pair<std::uint64_t, Result>>> gather(const Field& field, const Lattice& lattice,
-                                                                    IntervalTest wanted, const Make& make,
-                                                                    const RunOptions& run) {
+std::optional<std::vector<std::pair<std::uint64_t, Result>>> gather(const Field& field, const Lattice& lattice, Wanted wanted,
+                                                                    const Make& make, const RunOptions& run) {
   std::vector<std::pair<std::uint64_t, Result>> results;
   std::mutex mutex;
   ProgressMeter progress(run, "sampling voxels");
@@ -48,9 +48,9 @@ std::optional<std::vector<std::pair<std::uint64_t, Result>>> gather(const Field&
     const auto visit = [&](Evaluator& evaluator, const PrunedField& pruned, const CellPlace& place) {
       Result result = make(evaluator, pruned, place);
       const std::lock_guard lock(mutex);
-      results.emplace_back(block_key(place), std::move(result));
+      results.emplace_back(morton_key(place), std::move(result));
     };
-    complete = search_blocks(field, lattice, wanted, visit, run, progress);
+    complete = visit_cells(field, lattice.blocks, wanted, visit, run, progress);
     tbb::parallel_sort(results.begin(), results.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   });
   if (!complete) return std::nullopt;
@@ -77,7 +77,7 @@ std::optional<std::vector<FieldBlock>> sample_field(const Field& field, double v
   const auto make = [&](Evaluator& evaluator, const PrunedField& pruned, const CellPlace& place) {
     FieldBlock block;
     block.first = first_voxel(lattice, place);
-    const Vec3 base = lattice.box(place, 0).lo - pruned.origin();
+    const Vec3 base = lattice.box(place).lo - pruned.origin();
     Batch& batch = batches.local();
     for (int i = 0; i < 512; ++i) {
       batch.x[i] = static_cast<float>(base.x + voxel * (i >> 6));
@@ -87,7 +87,7 @@ std::optional<std::vector<FieldBlock>> sample_field(const Field& field, double v
     evaluator.values(pruned, batch.x, batch.y, batch.z, block.values);
     return block;
   };
-  auto gathered = gather<FieldBlock>(field, lattice, holds_matter, make, run);
+  auto gathered = gather<FieldBlock>(field, lattice, Wanted::kMatter, make, run);
   if (!gathered) return std::nullopt;
   blocks.reserve(gathered->size());
   for (auto& [key, block] : *gathered) blocks.push_back(block);
@@ -119,7 +119,7 @@ std::optional<std::vector<NearVoxel>> sample_near_surface(const Field& field, do
     }
     return near;
   };
-  auto gathered = gather<std::vector<NearVoxel>>(field, lattice, holds_surface, make, run);
+  auto gathered = gather<std::vector<NearVoxel>>(field, lattice, Wanted::kSurface, make, run);
   if (!gathered) return std::nullopt;
   for (auto& [key, near] : *gathered) {
     voxels.insert(voxels.end(), near.begin(), near.end());

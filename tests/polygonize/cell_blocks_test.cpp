@@ -38,7 +38,7 @@ std::vector<CellBlock> blocks_of(int size, const Inside& inside) {
         if (!block.masks.empty()) result.push_back(std::move(block));
       }
   std::sort(result.begin(), result.end(),
-            [](const CellBlock& a, const CellBlock& b) { return block_key(a.place) < block_key(b.place); });
+            [](const CellBlock& a, const CellBlock& b) { return morton_key(a.place) < morton_key(b.place); });
   return result;
 }
 
