@@ -17,9 +17,10 @@ constexpr std::size_t kMostCompared = 32;
 
 void append_active(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& box,
                    std::vector<std::uint32_t>& active) {
+  const FloatBox reach(box);
   const Ball ball = circumscribed_ball(box);
   const bool bounded = ball.radius < kInfinity;
-  const double rounding = bounded ? 1e-14 * glm::length(ball.center) : 0.0;
+  const double hair = bounded ? 1e-9 * ball.radius + 1e-14 * glm::length(ball.center) : 0.0;
   std::uint32_t chain = kNone;       // the chain whose segments are being listed,
   std::size_t chain_begin = 0;       // where they begin in `active`,
   double nearest = kInfinity;        // the distance that its nearest segment stays below everywhere in the box,
@@ -40,14 +41,13 @@ void append_active(const CompiledTree& tree, std::span<const std::uint32_t> cand
       drop_hidden();
       chain = kNone;
     }
-    if (!a.bounds.intersects(box)) continue;
+    if (!tree.bounds_of_atoms[atom].intersects(reach)) continue;
     const CompiledNode& node = tree.nodes[a.node];
     if (!bounded || node.warp != kNone) {
       active.push_back(atom);
       continue;
     }
-    const double hair = 1e-9 * (ball.radius + a.radius) + rounding;
-    const Ball wide{ball.center, ball.radius + (hair < kInfinity ? hair : 0.0)};
+    const Ball wide{ball.center, ball.radius + hair};
     if (node.op != Op::kChain) {
       const Interval f = node.op == Op::kHalfSpace ? half_space_interval(tree.half_spaces[node.payload], wide)
                                                    : primitive_interval(tree.primitive_of(node), wide);

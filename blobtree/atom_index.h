@@ -1,7 +1,7 @@
 // Two searches over atoms: which boxes meet a box, and the lowest common ancestor of two. Private to blobtree/.
 #pragma once
 
-#include "blobtree/geometry.h"
+#include "blobtree/float_box.h"
 
 #include <cstdint>
 #include <span>
@@ -9,21 +9,27 @@
 
 namespace cambium {
 
-/// Bounding volume hierarchy over fixed boxes. Build O(n log n); query O(hits + log n) for boxes that are spread out.
+/// Bounding volume hierarchy over boxes that their owner keeps. Build O(n log n), in parallel; query O(hits + log n) for boxes that
+/// are spread out.
 class BoxIndex {
  public:
   BoxIndex() = default;
-  explicit BoxIndex(std::vector<Box> boxes);
-  /// Indices of the boxes that meet `box`, ascending.
-  std::vector<std::uint32_t> query(const Box& box) const;
+  /// Empty boxes are never found.
+  explicit BoxIndex(std::span<const FloatBox> boxes);
+  /// Indices of the boxes that meet `box`, ascending. `boxes` as given when it was built.
+  std::vector<std::uint32_t> query(std::span<const FloatBox> boxes, const FloatBox& box) const;
+  std::size_t memory_bytes() const;
 
  private:
   struct Entry {
-    Box box;
+    FloatBox box;
     std::uint32_t first = 0, count = 0;  ///< count > 0: a leaf over items_; else children at this + 1 and at first
   };
-  void build(std::uint32_t begin, std::uint32_t end);
-  std::vector<Box> boxes_;
+  struct Center {
+    glm::vec3 at;
+    std::uint32_t item = 0;
+  };
+  void build(std::span<const FloatBox> boxes, std::span<Center> centers, std::uint32_t begin, std::uint32_t here);
   std::vector<std::uint32_t> items_;
   std::vector<Entry> entries_;
 };
@@ -36,6 +42,7 @@ class AncestorIndex {
   AncestorIndex(std::vector<std::uint32_t> node, std::vector<std::uint32_t> depth);
   /// i < j. Cost O(1) for near atoms, O(log n) scans of a block otherwise.
   std::uint32_t common(std::uint32_t i, std::uint32_t j) const;
+  std::size_t memory_bytes() const;
 
  private:
   static constexpr std::uint32_t kBlock = 32;

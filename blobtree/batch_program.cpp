@@ -16,7 +16,7 @@ void assign(T (&to)[3], const Vec3& v) {
 }
 
 const Lateral& lateral_of(const TapeView& view, const CompiledNode& node, std::uint32_t k) {
-  return view.tree.blends[node.payload].laterals[k];
+  return view.tree.lateral_of(node, k);
 }
 
 /// Places shapes relative to one origin and notes how hard they are for floats.
@@ -246,7 +246,7 @@ bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& or
       case Op::kHalfSpace: placer.add(view.tree.half_spaces[node.payload], step); break;
       case Op::kChain:
         step.kind = StepKind::kChain;
-        step.width = view.tree.chain_strengths[node.payload];
+        step.width = view.tree.chain_strength_of(node);
         step.first = static_cast<std::uint32_t>(out.swept.size());
         for (std::uint32_t i = in.first; i < in.first + in.count; ++i)
           placer.add_segment(view.tree.segment_of(view.slots[i]), step.width);

@@ -5,16 +5,12 @@
 
 namespace cambium {
 
-/// Adds the payload of one authored node (shapes, segments, blends, warps) and sets op and payload. Segments of a chain are
-/// appended to tree.segments; `segment_count` tells how many. A round cone is a chain of two.
-struct ShapeOfNode {
-  std::uint32_t first_segment = 0, segment_count = 0;  ///< chains
-  double radius = kInfinity;                           ///< smallest surface radius of another primitive
-  Vec3 axis{0, 0, 1};                                  ///< of its native coordinates
-};
-ShapeOfNode compile_shape(CompiledTree& tree, CompiledNode& compiled, const Node& node);
+/// Adds the payload of one authored node (shapes, chains, blends, warps) and sets op and payload. A round cone is a chain of two.
+void compile_shape(CompiledTree& tree, CompiledNode& compiled, const Node& node);
 
 /// Projection of the atom's support onto a unit direction, in the atom's own space.
-Interval support_along(const CompiledTree& tree, const Atom& atom, const Vec3& direction);
+Interval support_along(const CompiledTree& tree, std::uint32_t atom, const Vec3& direction);
+/// The same along the three axes.
+Box own_box(const CompiledTree& tree, std::uint32_t atom);
 
 }  // namespace cambium

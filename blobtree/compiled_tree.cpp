@@ -1,358 +1,74 @@
 #include "blobtree/compiled_tree.h"
 
-#include "blobtree/compile_shapes.h"
-#include "blobtree/operators.h"
-
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cambium {
 namespace {
 
-const Box kEverywhere{Vec3(-kInfinity), Vec3(kInfinity)};
-
-Vec3 any_normal(const Vec3& axis) {
-  return glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+template <class T>
+std::size_t bytes_of(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
 }
 
-/// Turns v as the shortest rotation from one unit vector to another would.
-Vec3 transported(const Vec3& v, const Vec3& from, const Vec3& to) {
-  const Vec3 cross = glm::cross(from, to);
-  const double cosine = glm::dot(from, to);
-  Vec3 turned = v;
-  if (cosine > -1 + 1e-12) turned = v * cosine + glm::cross(cross, v) + cross * (glm::dot(cross, v) / (1 + cosine));
-  const Vec3 across = turned - glm::dot(turned, to) * to;
-  return glm::length(across) > 1e-12 ? glm::normalize(across) : any_normal(to);
-}
-
-class TreeCompiler {
- public:
-  explicit TreeCompiler(const BlobTree& authored) : authored_(authored), count_(static_cast<std::uint32_t>(authored.size())) {}
-
-  CompiledTree run() {
-    tree_.root = authored_.root();
-    tree_.nodes.resize(count_);
-    tree_.branch.resize(count_);
-    tree_.order.resize(count_);
-    for (NodeId id = 0; id < count_; ++id) shapes_.push_back(compile_shape(tree_, tree_.nodes[id], authored_.node(id)));
-    for (NodeId id = 0; id < count_; ++id) link_children(id);
-    for (NodeId id = 0; id < count_; ++id) set_range(id);
-    number_atoms();
-    for (NodeId id = count_; id-- > 0;) set_keepers(id);
-    bound_supports();
-    bound_atoms();
-    return std::move(tree_);
-  }
-
- private:
-  CompiledNode& node(NodeId id) { return tree_.nodes[id]; }
-  const std::uint32_t* children(const CompiledNode& n) const { return tree_.children.data() + n.first_child; }
-
-  void link_children(NodeId id) {
-    const std::vector<NodeId> ids = children_of(authored_.node(id));
-    node(id).first_child = static_cast<std::uint32_t>(tree_.children.size());
-    node(id).child_count = static_cast<std::uint32_t>(ids.size());
-    for (const NodeId child : ids) {
-      tree_.children.push_back(child);
-      node(child).parent = id;
-    }
-  }
-
-  void set_range(NodeId id) {
-    CompiledNode& n = node(id);
-    std::vector<Interval> f;
-    bool any_negative = false, all_negative = n.child_count > 0;
-    for (std::uint32_t i = 0; i < n.child_count; ++i) {
-      const CompiledNode& child = node(children(n)[i]);
-      f.push_back(child.range);
-      any_negative = any_negative || child.can_be_negative;
-      all_negative = all_negative && child.can_be_negative;
-    }
-    const auto of_strength = [&](double s) {
-      n.range = {std::min(0.0, s), std::max(0.0, s)};
-      n.can_be_negative = s < 0;
-    };
-    switch (n.op) {
-      case Op::kPrimitive: of_strength(tree_.primitives[n.payload].strength); break;
-      case Op::kChain: of_strength(tree_.chain_strengths[n.payload]); break;
-      case Op::kHalfSpace: n.range = {0, 1}; break;
-      case Op::kSum:
-        n.range = sum_of(f.data(), f.size());
-        n.can_be_negative = any_negative;
-        break;
-      case Op::kUnion:
-        n.range = max_of(f.data(), f.size(), false);
-        n.can_be_negative = all_negative;
-        break;
-      case Op::kIntersection:
-        n.range = min_of(f.data(), f.size(), false);
-        n.can_be_negative = any_negative;
-        break;
-      case Op::kDifference: {
-        n.range = difference_of(f[0], f.data() + 1, f.size() - 1, false);
-        n.can_be_negative = node(children(n)[0]).can_be_negative;
-        for (std::size_t i = 1; i < f.size(); ++i) n.can_be_negative = n.can_be_negative || f[i].hi > 1;
-        break;
-      }
-      case Op::kRicci: n.range = ricci_of(f.data(), f.size(), tree_.numbers[n.payload]); break;
-      case Op::kContact: {
-        const CompiledBlend& b = tree_.blends[n.payload];
-        n.range = contact_of(f.data(), f.size(), false, b.width, b.lip);
-        n.can_be_negative = all_negative;
-        break;
-      }
-      case Op::kFork: {
-        const CompiledBlend& b = tree_.blends[n.payload];
-        const std::vector<Interval> weights(f.size(), Interval{0, 1});
-        n.range = fork_of(f[0], f.data() + 1, weights.data(), f.size() - 1, false, b.width, b.lip);
-        n.can_be_negative = node(children(n)[0]).can_be_negative;
-        break;
-      }
-      case Op::kScale:
-        n.range = scaled(f[0], tree_.numbers[n.payload]);
-        n.can_be_negative = tree_.numbers[n.payload] >= 0 ? any_negative : f[0].hi > 0;
-        break;
-      case Op::kWarp:
-        n.range = f[0];
-        n.can_be_negative = any_negative;
-        break;
-    }
-  }
-
-  void add_atoms(NodeId id) {
-    const ShapeOfNode& shape = shapes_[id];
-    const Attributes& given = authored_.attributes(id);
-    tree_.branch[id] = given.branch;
-    tree_.order[id] = given.order;
-    const auto begin_with = [&](const Vec3& axis) {
-      const Vec3 across = given.u_direction - glm::dot(given.u_direction, axis) * axis;
-      return glm::length(across) > 1e-9 ? glm::normalize(across) : any_normal(axis);
-    };
-    if (node(id).op != Op::kChain) {
-      tree_.atoms.push_back({id, kNone, shape.radius, {}});
-      tree_.coordinates.push_back({given.v_begin, begin_with(shape.axis)});
-      return;
-    }
-    double v = given.v_begin;
-    Vec3 axis = tree_.segments[shape.first_segment].axis, u = begin_with(axis);
-    for (std::uint32_t s = shape.first_segment; s < shape.first_segment + shape.segment_count; ++s) {
-      const SweptSegment<double>& segment = tree_.segments[s];
-      u = transported(u, axis, segment.axis);
-      axis = segment.axis;
-      tree_.atoms.push_back({id, s, std::min(segment.radius_at(segment.begin), segment.radius_at(segment.end)), {}});
-      tree_.coordinates.push_back({v, u});
-      v += segment.end;
-    }
-  }
-
-  /// Depth-first, without recursion: depths, spaces, atoms and the ancestors that neighbouring atoms share.
-  void number_atoms() {
-    std::vector<std::uint32_t> shared, shared_depth;
-    struct Visit {
-      NodeId id;
-      std::uint32_t next;
-    };
-    std::vector<Visit> stack{{tree_.root, 0}};
-    NodeId lowest = kNone;
-    const auto note = [&](NodeId id) {
-      if (lowest == kNone || node(id).depth < node(lowest).depth) lowest = id;
-    };
-    const auto enter = [&](NodeId id) {
-      CompiledNode& n = node(id);
-      n.first_atom = static_cast<std::uint32_t>(tree_.atoms.size());
-      if (n.child_count > 0) return;
-      add_atoms(id);
-      for (std::size_t i = n.first_atom; i < tree_.atoms.size(); ++i) {
-        if (i > 0) {
-          const NodeId common = i > n.first_atom ? id : lowest;
-          shared.push_back(common);
-          shared_depth.push_back(node(common).depth);
-        }
-      }
-      lowest = kNone;
-    };
-    enter(tree_.root);
-    while (!stack.empty()) {
-      Visit& top = stack.back();
-      CompiledNode& n = node(top.id);
-      if (top.next == n.child_count) {
-        n.end_atom = static_cast<std::uint32_t>(tree_.atoms.size());
-        stack.pop_back();
-        if (!stack.empty()) note(stack.back().id);
-        continue;
-      }
-      const std::uint32_t slot = top.next++;
-      const NodeId child = children(n)[slot];
-      node(child).depth = n.depth + 1;
-      node(child).warp = n.op == Op::kWarp ? top.id : n.warp;
-      node(child).subtracted = n.subtracted || (n.op == Op::kDifference && slot > 0);
-      enter(child);
-      stack.push_back({child, 0});
-    }
-    tree_.ancestors = AncestorIndex(std::move(shared), std::move(shared_depth));
-  }
-
-  void set_keepers(NodeId id) {  // parents have larger ids
-    CompiledNode& n = node(id);
-    const bool structural = n.op == Op::kChain || n.op == Op::kIntersection || n.op == Op::kDifference || n.op == Op::kRicci ||
-                            n.op == Op::kScale || n.op == Op::kWarp;
-    const bool sensitive = structural || ((n.op == Op::kUnion || n.op == Op::kContact) && n.child_count > 1) || n.op == Op::kFork;
-    n.keep_structural = structural ? id : n.parent == kNone ? kNone : node(n.parent).keep_structural;
-    n.keep_sensitive = sensitive ? id : n.parent == kNone ? kNone : node(n.parent).keep_sensitive;
-  }
-
-  static Extents extents_of(const Box& box, const WarpFrame& frame) {
-    Extents e;
-    for (int i = 0; i < 3; ++i) {
-      e[i] = {0, 0};
-      for (int k = 0; k < 3; ++k) {
-        const double w = frame.axes[i][k];
-        if (w == 0) continue;
-        const double a = w * (box.lo[k] - frame.anchor[k]), b = w * (box.hi[k] - frame.anchor[k]);
-        e[i].lo += std::min(a, b);
-        e[i].hi += std::max(a, b);
-      }
-    }
-    return e;
-  }
-
-  /// Extents of one atom in the space right below a warp; tight for atoms that live there, by box for deeper ones.
-  Extents extents_of(const Atom& atom, const Box& own_box, const WarpFrame& frame) const {
-    Extents e = extents_of(own_box, frame);
-    for (int i = 0; i < 3; ++i) {
-      const Interval tight = support_along(tree_, atom, frame.axes[i]);
-      const double shift = glm::dot(frame.anchor, frame.axes[i]);
-      e[i] = {std::max(e[i].lo, tight.lo - shift), std::min(e[i].hi, tight.hi - shift)};
-      if (e[i].hi < e[i].lo) e[i].hi = e[i].lo;
-    }
-    return e;
-  }
-
-  Box own_box(const Atom& atom) const {
-    Box box;
-    for (int k = 0; k < 3; ++k) {
-      Vec3 d(0.0);
-      d[k] = 1;
-      const Interval i = support_along(tree_, atom, d);
-      box.lo[k] = i.lo;
-      box.hi[k] = i.hi;
-    }
-    return box;
-  }
-
-  /// support_[id]: outside of it the node is 0; in the space of its parent (a warp's own box is already warped).
-  void bound_supports() {
-    support_.resize(count_);
-    atom_boxes_.reserve(tree_.atoms.size());
-    for (const Atom& atom : tree_.atoms) atom_boxes_.push_back(own_box(atom));
-    lifted_boxes_ = atom_boxes_;
-    for (NodeId id = 0; id < count_; ++id) {
-      CompiledNode& n = node(id);
-      Box& box = support_[id];
-      if (n.child_count == 0) {
-        for (std::uint32_t a = n.first_atom; a < n.end_atom; ++a) box.extend(atom_boxes_[a]);
-        continue;
-      }
-      const std::uint32_t* child = children(n);
-      if (n.op == Op::kWarp) {
-        box = support_of_warp(id, support_[child[0]]);
-      } else if (n.op == Op::kDifference) {
-        box = support_[child[0]];
-        for (std::uint32_t i = 1; i < n.child_count; ++i)
-          if (node(child[i]).range.hi > 1) box.extend(support_[child[i]]);
-      } else if (n.op == Op::kIntersection) {  // positive only where all are, negative where any is
-        box = support_[child[0]];
-        for (std::uint32_t i = 1; i < n.child_count; ++i) box = Box::intersection(box, support_[child[i]]);
-        if (box.empty()) box = {};
-        for (std::uint32_t i = 0; i < n.child_count; ++i)
-          if (node(child[i]).can_be_negative) box.extend(support_[child[i]]);
-      } else {
-        for (std::uint32_t i = 0; i < n.child_count; ++i) box.extend(support_[child[i]]);
-      }
-    }
-    tree_.bounds = support_[tree_.root];
-    if (!tree_.bounds.empty() && !tree_.bounds.bounded())
-      throw InvalidNode("half_space", "an unbounded field", "a half_space only where an intersection or difference bounds it");
-  }
-
-  Box support_of_warp(NodeId id, const Box& child_box) {
-    CompiledNode& n = node(id);
-    Warp& warp = tree_.warps[n.payload];
-    if (child_box.empty()) return {};
-    const WarpFrame frame = warp_frame(warp);
-    BendWarp* bend = std::get_if<BendWarp>(&warp);
-    Box box;
-    double deepest = kInfinity;
-    const auto add = [&](const Extents& e) {
-      if (bend && e[0].hi > 0 && e[0].lo < bend->arc) deepest = std::min(deepest, e[1].lo);
-      box.extend(warped_box(warp, e));
-    };
-    for (std::uint32_t a = n.first_atom; a < n.end_atom; ++a) {
-      const Box inside = Box::intersection(lifted_boxes_[a], child_box);
-      lifted_boxes_[a] = {};
-      if (inside.empty()) continue;
-      if (!inside.bounded()) {  // a half-space, for an operator above to bound; nothing is known of where it goes
-        if (bend) deepest = -kInfinity;
-        lifted_boxes_[a] = box = kEverywhere;
-        continue;
-      }
-      const Atom& atom = tree_.atoms[a];
-      const Extents e = node(atom.node).warp == id ? extents_of(atom, inside, frame) : extents_of(inside, frame);
-      add(e);
-      lifted_boxes_[a] = warped_box(warp, e);
-    }
-    if (bend) {
-      bend->inner = bend->rho + std::min(deepest, 0.0);
-      if (!(bend->inner > 0))
-        throw InvalidNode("angle_degrees", "a bend tighter than its child is thick (support radius >= rho)",
-                          "support radius < rho = " + std::to_string(bend->rho) + " m");
-    }
-    return box;
-  }
-
-  void bound_atoms() {
-    // clip[id]: where the node can matter at all, in its own space.
-    std::vector<Box> clip(count_, kEverywhere);
-    for (NodeId id = count_; id-- > 0;) {
-      if (id == tree_.root) clip[id] = tree_.bounds;
-      const CompiledNode& n = node(id);
-      for (std::uint32_t i = 0; i < n.child_count; ++i) {
-        const NodeId child = children(n)[i];
-        clip[child] = n.op == Op::kWarp ? support_[child] : Box::intersection(clip[id], support_[id]);
-      }
-    }
-    std::vector<Box> boxes;
-    boxes.reserve(tree_.atoms.size());
-    for (std::size_t a = 0; a < tree_.atoms.size(); ++a) {
-      Atom& atom = tree_.atoms[a];
-      Box box = Box::intersection(atom_boxes_[a], clip[atom.node]);
-      bool innermost = true;
-      for (std::uint32_t w = node(atom.node).warp; w != kNone && !box.empty(); w = node(w).warp, innermost = false) {
-        if (!box.bounded()) {
-          box = clip[w];
-          continue;
-        }
-        const Warp& warp = tree_.warps[node(w).payload];
-        const WarpFrame frame = warp_frame(warp);
-        const Extents e = innermost ? extents_of(atom, box, frame) : extents_of(box, frame);
-        box = Box::intersection(warped_box(warp, e).padded(1e-9), clip[w]);
-      }
-      atom.bounds = box;
-      boxes.push_back(box);
-    }
-    tree_.index = BoxIndex(std::move(boxes));
-  }
-
-  const BlobTree& authored_;
-  std::uint32_t count_;
-  CompiledTree tree_;
-  std::vector<ShapeOfNode> shapes_;
-  std::vector<Box> support_, atom_boxes_;
-  std::vector<Box> lifted_boxes_;  ///< of atoms, in the space of the warps that bound_supports() has passed
-};
+NativeAxis axis_of(const PointSkeleton<double>& k) { return {k.center, {0, 0, 1}}; }
+NativeAxis axis_of(const SegmentSkeleton<double>& k) { return {k.a, k.axis}; }
+NativeAxis axis_of(const ConeSkeleton<double>& k) { return {k.base, k.axis}; }
+NativeAxis axis_of(const DiscSkeleton<double>& k) { return {k.center, k.normal}; }
+NativeAxis axis_of(const CircleSkeleton<double>& k) { return {k.center, k.normal}; }
+NativeAxis axis_of(const BoxSkeleton<double>& k) { return {k.center, k.world_from_box[2]}; }
 
 }  // namespace
 
-CompiledTree compile(const BlobTree& tree) { return TreeCompiler(tree).run(); }
+void PrimitiveStore::add(const CompiledPrimitive& primitive) {
+  std::visit([&]<class Shape>(const Shape& shape) {
+    auto& array = std::get<std::vector<Shape>>(shapes_);
+    entries_.push_back({primitive.radius, primitive.strength, static_cast<std::uint32_t>(primitive.shape.index()),
+                        static_cast<std::uint32_t>(array.size())});
+    array.push_back(shape);
+  }, primitive.shape);
+}
+
+CompiledPrimitive PrimitiveStore::operator[](std::size_t i) const {
+  const Entry& entry = entries_[i];
+  SkeletonShape<double> shape;
+  [&]<std::size_t... kKind>(std::index_sequence<kKind...>) {
+    ((entry.kind == kKind ? void(shape = std::get<kKind>(shapes_)[entry.place]) : void()), ...);
+  }(std::make_index_sequence<std::variant_size_v<SkeletonShape<double>>>{});
+  return {std::move(shape), entry.radius, entry.strength};
+}
+
+void PrimitiveStore::shrink_to_fit() {
+  entries_.shrink_to_fit();
+  std::apply([](auto&... array) { (array.shrink_to_fit(), ...); }, shapes_);
+}
+
+std::size_t PrimitiveStore::memory_bytes() const {
+  return bytes_of(entries_) + std::apply([](const auto&... array) { return (bytes_of(array) + ...); }, shapes_);
+}
+
+SweptSegment<double> CompiledTree::segment_of(std::uint32_t atom) const {
+  const ChainNode &from = chain_nodes[atoms[atom].element], &to = chain_nodes[atoms[atom].element + 1];
+  const Vec3 d = to.position - from.position;
+  const double length = glm::length(d);
+  if (!(length > 0)) return {from.position, {0, 0, 1}, 0, 0, std::max(from.radius, to.radius), 0};  // the thicker ball
+  return {from.position, d / length, 0, length, from.radius, (to.radius - from.radius) / length};
+}
+
+double CompiledTree::radius_of(std::uint32_t atom) const {
+  const CompiledNode& node = nodes[atoms[atom].node];
+  if (node.op == Op::kHalfSpace) return kInfinity;
+  if (node.op == Op::kPrimitive) return primitives.radius(node.payload);
+  const ChainNode &from = chain_nodes[atoms[atom].element], &to = chain_nodes[atoms[atom].element + 1];
+  return from.position == to.position ? std::max(from.radius, to.radius) : std::min(from.radius, to.radius);
+}
+
+std::size_t CompiledTree::memory_bytes() const {
+  return sizeof(*this) + bytes_of(nodes) + bytes_of(children) + primitives.memory_bytes() + bytes_of(half_spaces) + bytes_of(chains) +
+         bytes_of(chain_nodes) + bytes_of(blends) + bytes_of(laterals) + bytes_of(numbers) + bytes_of(warps) + bytes_of(atoms) +
+         bytes_of(bounds_of_atoms) + bytes_of(coordinates) + bytes_of(owners) + index.memory_bytes() + ancestors.memory_bytes();
+}
 
 Interval primitive_interval(const CompiledPrimitive& p, const Ball& ball) {
   const double d = std::visit([&](const auto& shape) { return distance(shape, ball.center).value; }, p.shape);
@@ -363,6 +79,15 @@ Interval half_space_interval(const CompiledHalfSpace& h, const Ball& ball) {
   const double s = glm::dot(ball.center - h.point, h.normal);
   const auto f = [&](double at) { return std::clamp(0.5 - at / (2 * h.width), 0.0, 1.0); };
   return {f(s + ball.radius), f(s - ball.radius)};
+}
+
+NativeAxis native_axis(const CompiledPrimitive& primitive) {
+  return std::visit([](const auto& shape) { return axis_of(shape); }, primitive.shape);
+}
+NativeAxis native_axis(const SweptSegment<double>& segment) { return {segment.a, segment.axis}; }
+
+Vec3 any_normal(const Vec3& axis) {
+  return glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
 }
 
 }  // namespace cambium

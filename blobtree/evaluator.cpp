@@ -27,14 +27,14 @@ class BallPolicy {
     }
     // Closed forms above round; a value must never escape by a bit.
     return falloff_interval(x.lo * kRadiusPerSupport * (1 - 1e-13), x.hi * kRadiusPerSupport * (1 + 1e-13),
-                            view_.tree.chain_strengths[view_.tree.nodes[in.node].payload]);
+                            view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
   }
   Interval lateral_weight(const Lateral& lateral, const Instruction& in) const {
     return lateral_contact_weight_interval(lateral, balls_[in.frame].ball);
   }
   Interval warp(const Instruction& in, const Interval& f) const {
     if (balls_[in.frame].certain) return f;
-    const Interval& anywhere = view_.tree.nodes[in.node].range;
+    const Interval& anywhere = view_.tree.warps[view_.tree.nodes[in.node].payload].range;
     return {std::min(0.0, anywhere.lo), std::max(0.0, anywhere.hi)};
   }
 
@@ -58,21 +58,11 @@ class TraitsPolicy {
   const PointPolicy<double>& point_;
 };
 
-double turns(double y, double x) {
-  const double t = std::atan2(y, x) / (2 * std::numbers::pi);
-  return t < 0 ? std::min(t + 1, std::nextafter(1.0, 0.0)) : t;
+/// An angle in turns, [0, 1).
+double turns(double angle) {
+  const double t = angle / (2 * std::numbers::pi);
+  return std::min(t - std::floor(t), std::nextafter(1.0, 0.0));
 }
-
-/// Where the axis of native coordinates begins and points.
-struct NativeAxis {
-  Vec3 origin, axis;
-};
-NativeAxis native_axis(const PointSkeleton<double>& k) { return {k.center, {0, 0, 1}}; }
-NativeAxis native_axis(const SegmentSkeleton<double>& k) { return {k.a, k.axis}; }
-NativeAxis native_axis(const ConeSkeleton<double>& k) { return {k.base, k.axis}; }
-NativeAxis native_axis(const DiscSkeleton<double>& k) { return {k.center, k.normal}; }
-NativeAxis native_axis(const CircleSkeleton<double>& k) { return {k.center, k.normal}; }
-NativeAxis native_axis(const BoxSkeleton<double>& k) { return {k.center, k.world_from_box[2]}; }
 
 }  // namespace
 
@@ -135,14 +125,15 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
     if (!(weight > 0)) continue;
     Contribution c;
     c.weight = weight;
-    c.branch = tree.branch[in.node];
-    c.order = tree.order[in.node];
+    c.branch = tree.owner_of(node).branch;
+    c.order = tree.owner_of(node).order;
     const Vec3& q = s.points[in.frame];
     const auto place = [&](std::uint32_t atom, const NativeAxis& native, double along) {
       const AtomCoordinates& at = tree.coordinates[atom];
       const Vec3 from = q - native.origin;
+      const Vec3 normal = any_normal(native.axis);
       c.v = at.v + along;
-      c.u = turns(glm::dot(from, glm::cross(native.axis, at.u_direction)), glm::dot(from, at.u_direction));
+      c.u = turns(std::atan2(glm::dot(from, glm::cross(native.axis, normal)), glm::dot(from, normal)) - at.turn);
     };
     if (op == Op::kChain) {
       double best = kInfinity;
@@ -157,11 +148,11 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
       const SweptSegment<double>& segment = s.shapes.segments()[winner];
       const double along = closest_parameter(segment, q - segment.a);
       c.radius = segment.radius_at(along);
-      place(view.slots[winner], {segment.a, segment.axis}, along);
+      place(view.slots[winner], native_axis(segment), along);
     } else {
       const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.data()));
-      const NativeAxis native = std::visit([](const auto& shape) { return native_axis(shape); }, primitive.shape);
-      c.radius = tree.atoms[in.first].radius;
+      const NativeAxis native = native_axis(primitive);
+      c.radius = tree.radius_of(in.first);
       place(in.first, native, glm::dot(q - native.origin, native.axis));
     }
     out.push_back(c);

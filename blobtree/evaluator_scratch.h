@@ -103,7 +103,7 @@ class PointPolicy {
     }
     Distance<double> d{best, Vec3(0.0)};
     if constexpr (!std::is_floating_point_v<N>) d = swept_ratio_gradient(segments[winner], p);
-    return falloff_of<N>(d, kRadiusPerSupport, view_.tree.chain_strengths[view_.tree.nodes[in.node].payload]);
+    return falloff_of<N>(d, kRadiusPerSupport, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
   }
   N lateral_weight(const Lateral& lateral, const Instruction& in) const {
     return lateral_contact_weight<N>(lateral, at_.points[in.frame] - lateral.point);

@@ -33,12 +33,14 @@ Field::Field(const BlobTree& tree) : tree_(std::make_shared<const CompiledTree>(
 
 const Box& Field::bounds() const { return tree_->bounds; }
 std::size_t Field::atom_count() const { return tree_->atoms.size(); }
-double Field::atom_radius(std::uint32_t atom) const { return tree_->atoms[atom].radius; }
-Box Field::atom_bounds(std::uint32_t atom) const { return tree_->atoms[atom].bounds; }
+double Field::atom_radius(std::uint32_t atom) const { return tree_->radius_of(atom); }
+Box Field::atom_bounds(std::uint32_t atom) const { return tree_->bounds_of(atom); }
+
+std::size_t Field::memory_bytes() const { return tree_->memory_bytes(); }
 
 ActiveSet Field::active(const Box& box) const {
   ActiveSet set;
-  append_active(*tree_, tree_->index.query(box), box, set.atoms);
+  append_active(*tree_, tree_->index.query(tree_->bounds_of_atoms, FloatBox(box)), box, set.atoms);
   return set;
 }
 

@@ -83,6 +83,7 @@ class Field {
   /// Outside this box the field is exactly 0.
   const Box& bounds() const;
   std::size_t atom_count() const;      ///< primitives, chain segments counted singly
+  std::size_t memory_bytes() const;    ///< of everything held; about 100 per chain segment and 250 per axis
 
   /// Thread safe; cost: the primitives active at p and a logarithmic search. For many points prune once and use batches.
   double value(const Vec3& p) const;

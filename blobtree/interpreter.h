@@ -32,7 +32,7 @@ struct TapeView {
   std::uint32_t stack_size;
 
   std::size_t frame_count() const { return 1 + frames.size() / 2; }
-  const Warp& warp_of(std::size_t frame) const { return tree.warps[tree.nodes[frames[2 * (frame - 1)]].payload]; }  // frame >= 1
+  const Warp& warp_of(std::size_t frame) const { return tree.warps[tree.nodes[frames[2 * (frame - 1)]].payload].warp; }  // frame >= 1
   std::uint32_t outside_of(std::size_t frame) const { return frames[2 * (frame - 1) + 1]; }
 };
 
@@ -83,7 +83,7 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
         const bool has_axis = view.slots[in.first] == 0;
         scratch.weights.clear();
         for (std::size_t k = has_axis; k < n; ++k)
-          scratch.weights.push_back(policy.lateral_weight(blend.laterals[view.slots[in.first + k] - 1], in));
+          scratch.weights.push_back(policy.lateral_weight(view.tree.lateral_of(node, view.slots[in.first + k] - 1), in));
         f[0] = fork_of(has_axis ? f[0] : Value{}, f + has_axis, scratch.weights.data(), n - has_axis, with_zero, blend.width,
                        blend.lip);
         break;

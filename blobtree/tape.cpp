@@ -42,7 +42,7 @@ const Tape& TapeBuilder::build(std::span<const std::uint32_t> atoms) {
 TapeBuilder::Value TapeBuilder::leaf(std::uint32_t atom) {
   const Atom& a = tree_.atoms[atom];
   const CompiledNode& n = tree_.nodes[a.node];
-  tape_.smallest_radius = std::min(tape_.smallest_radius, a.radius);
+  tape_.smallest_radius = std::min(tape_.smallest_radius, tree_.radius_of(atom));
   if (n.op == Op::kChain) return {a.node, atom, n.can_be_negative, true};
   emit(n.op, a.node, n.warp, false, atom, 1);
   tape_.stack_size = std::max(tape_.stack_size, ++depth_);
@@ -53,10 +53,8 @@ TapeBuilder::Value TapeBuilder::climb(Value value, std::uint32_t below) {
   if (value.is_segment) value = apply(value.node, {&value, 1});
   const std::uint32_t floor = below == kNone ? 0 : tree_.nodes[below].depth + 1;
   for (;;) {
-    const std::uint32_t parent = tree_.nodes[value.node].parent;
-    if (parent == kNone) return value;
-    const CompiledNode& p = tree_.nodes[parent];
-    const std::uint32_t next = value.can_be_negative ? p.keep_sensitive : p.keep_structural;
+    const CompiledNode& n = tree_.nodes[value.node];
+    const std::uint32_t next = value.can_be_negative ? n.sensitive_above : n.structural_above;
     if (next == kNone || tree_.nodes[next].depth < floor) return value;
     value = apply(next, {&value, 1});
   }
