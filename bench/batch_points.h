@@ -1,12 +1,12 @@
 // Points of a batch, the arrays for what is computed at them, and batches run over a pruned field.
 #pragma once
 
-#include "blobtree/field.h"
-
 #include <hwy/aligned_allocator.h>
 
 #include <cstddef>
 #include <span>
+
+#include "blobtree/field.h"
 
 namespace cambium::bench {
 

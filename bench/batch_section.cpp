@@ -1,11 +1,11 @@
 // Sums of cones and chains in one cell through the public batches, with the machine's own limit measured beside them.
+#include <cmath>
+#include <deque>
+
 #include "bench/batch_points.h"
 #include "bench/cell_shapes.h"
 #include "bench/cone_yardstick.h"
 #include "bench/sections.h"
-
-#include <cmath>
-#include <deque>
 
 namespace cambium::bench {
 namespace {
@@ -27,8 +27,8 @@ PrunedField sum_of_cones(int count) {
 YardstickCone checked_yardstick(BatchPoints& points) {
   RandomNumbers random(1);
   const Cone cone = cone_through_cell(random);
-  const YardstickCone yardstick = make_yardstick_cone({cone.base.x, cone.base.y, cone.base.z},
-                                                      {cone.tip.x, cone.tip.y, cone.tip.z}, cone.radius_base, cone.radius_tip);
+  const YardstickCone yardstick = make_yardstick_cone(
+      {cone.base.x, cone.base.y, cone.base.z}, {cone.tip.x, cone.tip.y, cone.tip.z}, cone.radius_base, cone.radius_tip);
   cone_yardstick(yardstick, points.x().data(), points.y().data(), points.z().data(), points.f_data(), kYardstickPoints);
   BlobTreeBuilder builder;
   const NodeId root = builder.add(cone);
@@ -43,7 +43,8 @@ YardstickCone checked_yardstick(BatchPoints& points) {
 /// The same field's values and samples over batches of both sizes, added to what is measured.
 class Measured {
  public:
-  Measured(std::string name, PrunedField field, Measurements& measurements) : name_(std::move(name)), field_(std::move(field)) {
+  Measured(std::string name, PrunedField field, Measurements& measurements)
+      : name_(std::move(name)), field_(std::move(field)) {
     for (const int edge : kEdges) {
       BatchPoints& points = points_.emplace_back(kCell, edge);
       measurements.add(value_name(edge), [this, &points] { points.values(evaluator_, field_); });
@@ -96,10 +97,16 @@ void batch_section(Report& report, const Pace& pace) {
   for (const int edge : kEdges)
     for (std::size_t i = 0; i < std::size(kCounts); ++i) {
       const double ns = cones[i].value_ns(measurements, edge) / kCounts[i];
-      report.add({.what = counted(kCounts[i], "cone", edge), .figure = ns, .unit = "ns/sample/cone", .ratio = limit / ns,
-                  .ratio_to = "yardstick's rate", .target = at_least(0.5)});
+      report.add({.what = counted(kCounts[i], "cone", edge),
+                  .figure = ns,
+                  .unit = "ns/sample/cone",
+                  .ratio = limit / ns,
+                  .ratio_to = "yardstick's rate",
+                  .target = at_least(0.5)});
       if (kCounts[i] == 6)  // 200 M points a second is the figure for an AVX-512 core
-        report.add({.what = counted(6, "cone", edge) + ", all at once", .figure = 6 * ns, .unit = "ns/point",
+        report.add({.what = counted(6, "cone", edge) + ", all at once",
+                    .figure = 6 * ns,
+                    .unit = "ns/point",
                     .target = at_most(5)});
     }
 
@@ -107,8 +114,11 @@ void batch_section(Report& report, const Pace& pace) {
   for (const int edge : kEdges)
     for (std::size_t i = 0; i < std::size(kCounts); ++i) {
       const double ns = cones[i].sample_ns(measurements, edge) / kCounts[i];
-      report.add({.what = counted(kCounts[i], "cone", edge), .figure = ns, .unit = "ns/sample/cone",
-                  .ratio = ns * kCounts[i] / cones[i].value_ns(measurements, edge), .ratio_to = "values' time",
+      report.add({.what = counted(kCounts[i], "cone", edge),
+                  .figure = ns,
+                  .unit = "ns/sample/cone",
+                  .ratio = ns * kCounts[i] / cones[i].value_ns(measurements, edge),
+                  .ratio_to = "values' time",
                   .target = at_most(2)});
     }
 
@@ -116,10 +126,17 @@ void batch_section(Report& report, const Pace& pace) {
   for (const int edge : kEdges)
     for (std::size_t i = 0; i < std::size(kCounts); ++i) {
       const double value = chains[i].value_ns(measurements, edge), sample = chains[i].sample_ns(measurements, edge);
-      report.add({.what = counted(kCounts[i], "segment", edge), .figure = value / kCounts[i], .unit = "ns/sample/segment",
-                  .ratio = value / cones[i].value_ns(measurements, edge), .ratio_to = "cones' time", .target = at_most(1.3)});
-      report.add({.what = counted(kCounts[i], "segment", edge) + ", gradients", .figure = sample / kCounts[i],
-                  .unit = "ns/sample/segment", .ratio = sample / value, .ratio_to = "values' time"});
+      report.add({.what = counted(kCounts[i], "segment", edge),
+                  .figure = value / kCounts[i],
+                  .unit = "ns/sample/segment",
+                  .ratio = value / cones[i].value_ns(measurements, edge),
+                  .ratio_to = "cones' time",
+                  .target = at_most(1.3)});
+      report.add({.what = counted(kCounts[i], "segment", edge) + ", gradients",
+                  .figure = sample / kCounts[i],
+                  .unit = "ns/sample/segment",
+                  .ratio = sample / value,
+                  .ratio_to = "values' time"});
     }
 }
 

@@ -1,11 +1,11 @@
 // One cell on a surface, and primitives of which each passes through it: the setting of the batch rows.
 #pragma once
 
-#include "bench/random_numbers.h"
-#include "blobtree/field.h"
-
 #include <stdexcept>
 #include <string>
+
+#include "bench/random_numbers.h"
+#include "blobtree/field.h"
 
 namespace cambium::bench {
 

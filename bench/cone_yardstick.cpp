@@ -15,46 +15,35 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::ScalableTag<float>;
 using Floats = hn::Vec<Tag>;
 
-/// Constants in registers.
-struct Cone {
-  Floats u[4], v[4], h[4], disc_radius, slant_length, slant_along, slant_across, rim_offset;
-};
-
-/// The distance to the solid cone is that to its slant (a strip's edge) above the base plane, and to its base disc below it; both
-/// are differences in a frame in the (rho, h) half plane, so one root (rho) is all it takes.
-HWY_INLINE Floats field(Tag d, const Cone& c, Floats x, Floats y, Floats z) {
-  const Floats u = hn::MulAdd(x, c.u[0], hn::MulAdd(y, c.u[1], hn::MulAdd(z, c.u[2], c.u[3])));
-  const Floats v = hn::MulAdd(x, c.v[0], hn::MulAdd(y, c.v[1], hn::MulAdd(z, c.v[2], c.v[3])));
-  const Floats h = hn::MulAdd(x, c.h[0], hn::MulAdd(y, c.h[1], hn::MulAdd(z, c.h[2], c.h[3])));
-  const Floats rho = hn::Sqrt(hn::MulAdd(u, u, hn::Mul(v, v)));
-  const Floats beyond_rim = hn::Sub(rho, c.disc_radius);
-  const Floats along_slant = hn::MulSub(h, c.slant_along, hn::Mul(beyond_rim, c.slant_across));
-  const Floats off_slant = hn::MulAdd(h, c.slant_across, hn::Mul(beyond_rim, c.slant_along));
-  const Floats zero = hn::Zero(d);
-  const Floats past_ends = hn::Sub(along_slant, hn::Min(hn::Max(along_slant, zero), c.slant_length));
-  const auto below = hn::Lt(h, zero);
-  const Floats outwards = hn::Max(hn::IfThenElse(below, beyond_rim, off_slant), zero);
-  const Floats other = hn::IfThenElse(below, h, past_ends);
-  const Floats s = hn::Max(hn::NegMulAdd(other, other, hn::NegMulAdd(outwards, outwards, hn::Set(d, 1.0f))), zero);
-  return hn::Mul(s, hn::Mul(s, s));
-}
-
-void evaluate(const YardstickCone& cone, const float* HWY_RESTRICT x, const float* HWY_RESTRICT y, const float* HWY_RESTRICT z,
-              float* HWY_RESTRICT f, std::size_t count) {
+/// The distance to the solid cone is that to its slant (a strip's edge) above the base plane, and to its base disc below it;
+/// both are differences in a frame in the (rho, h) half plane, so one root (rho) is all it takes.
+void evaluate(const YardstickCone& cone, const float* HWY_RESTRICT x, const float* HWY_RESTRICT y,
+              const float* HWY_RESTRICT z, float* HWY_RESTRICT f, std::size_t count) {
   const Tag d;
-  Cone c;
-  for (int i = 0; i < 4; ++i) {
-    c.u[i] = hn::Set(d, cone.across_u[i]);
-    c.v[i] = hn::Set(d, cone.across_v[i]);
-    c.h[i] = hn::Set(d, cone.along[i]);
-  }
-  c.disc_radius = hn::Set(d, cone.disc_radius);
-  c.slant_length = hn::Set(d, cone.slant_length);
-  c.slant_along = hn::Set(d, cone.slant_along);
-  c.slant_across = hn::Set(d, cone.slant_across);
+  const Floats zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const Floats u_x = hn::Set(d, cone.across_u[0]), u_y = hn::Set(d, cone.across_u[1]), u_z = hn::Set(d, cone.across_u[2]);
+  const Floats v_x = hn::Set(d, cone.across_v[0]), v_y = hn::Set(d, cone.across_v[1]), v_z = hn::Set(d, cone.across_v[2]);
+  const Floats h_x = hn::Set(d, cone.along[0]), h_y = hn::Set(d, cone.along[1]), h_z = hn::Set(d, cone.along[2]);
+  const Floats u_0 = hn::Set(d, cone.across_u[3]), v_0 = hn::Set(d, cone.across_v[3]), h_0 = hn::Set(d, cone.along[3]);
+  const Floats disc_radius = hn::Set(d, cone.disc_radius), slant_length = hn::Set(d, cone.slant_length);
+  const Floats slant_along = hn::Set(d, cone.slant_along), slant_across = hn::Set(d, cone.slant_across);
   const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t i = 0; i < count; i += lanes)
-    hn::Store(field(d, c, hn::Load(d, x + i), hn::Load(d, y + i), hn::Load(d, z + i)), d, f + i);
+  for (std::size_t i = 0; i < count; i += lanes) {
+    const Floats px = hn::Load(d, x + i), py = hn::Load(d, y + i), pz = hn::Load(d, z + i);
+    const Floats u = hn::MulAdd(px, u_x, hn::MulAdd(py, u_y, hn::MulAdd(pz, u_z, u_0)));
+    const Floats v = hn::MulAdd(px, v_x, hn::MulAdd(py, v_y, hn::MulAdd(pz, v_z, v_0)));
+    const Floats h = hn::MulAdd(px, h_x, hn::MulAdd(py, h_y, hn::MulAdd(pz, h_z, h_0)));
+    const Floats rho = hn::Sqrt(hn::MulAdd(u, u, hn::Mul(v, v)));
+    const Floats beyond_rim = hn::Sub(rho, disc_radius);
+    const Floats along_slant = hn::MulSub(h, slant_along, hn::Mul(beyond_rim, slant_across));
+    const Floats off_slant = hn::MulAdd(h, slant_across, hn::Mul(beyond_rim, slant_along));
+    const Floats past_ends = hn::Sub(along_slant, hn::Min(hn::Max(along_slant, zero), slant_length));
+    const auto below = hn::Lt(h, zero);
+    const Floats outwards = hn::Max(hn::IfThenElse(below, beyond_rim, off_slant), zero);
+    const Floats other = hn::IfThenElse(below, h, past_ends);
+    const Floats s = hn::Max(hn::NegMulAdd(other, other, hn::NegMulAdd(outwards, outwards, one)), zero);
+    hn::Store(hn::Mul(s, hn::Mul(s, s)), d, f + i);
+  }
 }
 
 const char* target_name() { return hwy::TargetName(HWY_TARGET); }

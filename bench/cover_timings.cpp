@@ -1,15 +1,15 @@
 #include "bench/cover_timings.h"
 
-#include "bench/batch_points.h"
-#include "bench/clock.h"
-#include "bench/process_figures.h"
-
 #include <algorithm>
 #include <ctime>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "bench/batch_points.h"
+#include "bench/clock.h"
+#include "bench/process_figures.h"
 
 namespace cambium::bench {
 namespace {
@@ -49,18 +49,24 @@ void CoverTimings::measure_cover(int threads) {
   cover_ = {};  // so that there is never more than one in memory
   double seconds = 0;
   const double cpu_begin = cpu_seconds_now();
-  const auto threads_begin = thread_seconds();
+  const auto threads_begin = thread_times();
   cover_ = timed(seconds, [&] { return covered(field_, threads); });
-  if (threads == 1)
-    cpu_seconds_ = std::min(cpu_seconds_, cpu_seconds_now() - cpu_begin);
-  else
-    busier_seconds_ = std::min(busier_seconds_, busiest_thread_seconds(threads_begin));
+  const double cpu = cpu_seconds_now() - cpu_begin;
+  const ThreadsSince since = threads_since(threads_begin);
+
   if (spent_ > 0 && cover_.size() != cells_) throw std::logic_error("covers of one field differ");
   spent_ += seconds;
-  cover_seconds_[threads - 1] = std::min(cover_seconds_[threads - 1], seconds);
   cells_ = cover_.size();
   memory_bytes_ = cover_.memory_bytes();
   tapes_ = cover_.tape_count();
+  if (threads == 1)
+    cpu_seconds_ = std::min(cpu_seconds_, cpu);
+  else
+    busier_seconds_ = std::min(busier_seconds_, since.busiest_ran);
+  if (seconds < cover_seconds_[threads - 1]) {
+    cover_seconds_[threads - 1] = seconds;
+    disturbed_[threads - 1] = since.waited > 0.05 * seconds;
+  }
 }
 
 void CoverTimings::measure_batches() {
@@ -81,7 +87,8 @@ void CoverTimings::measure_batches() {
     const double begin = seconds_now();
     std::vector<std::thread> others;
     for (int i = 1; i < threads; ++i)
-      others.emplace_back([&, i] { evaluate_cells(cover_, cells, static_cast<std::size_t>(i), static_cast<std::size_t>(threads)); });
+      others.emplace_back(
+          [&, i] { evaluate_cells(cover_, cells, static_cast<std::size_t>(i), static_cast<std::size_t>(threads)); });
     evaluate_cells(cover_, cells, 0, static_cast<std::size_t>(threads));
     for (std::thread& other : others) other.join();
     batch_ns_[threads - 1] = std::min(batch_ns_[threads - 1], (seconds_now() - begin) / points * 1e9);

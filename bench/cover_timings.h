@@ -1,18 +1,18 @@
 // Times the surface cover of one field with one and two threads, and batches over its cells.
 #pragma once
 
-#include "blobtree/field.h"
-#include "blobtree/surface_cover.h"
-
 #include <cstddef>
 #include <utility>
+
+#include "blobtree/field.h"
+#include "blobtree/surface_cover.h"
 
 namespace cambium::bench {
 
 /// Cells about one branch diameter across: halving space gives edges between half of the longest and the longest.
 CoverOptions diameter_cells();
 
-/// The least of all measurements so far; each call of a measuring member adds one.
+/// The least of all measurements so far; each call of a measuring member adds one. A field is a handle, so it is kept.
 class CoverTimings {
  public:
   explicit CoverTimings(Field field) : field_(std::move(field)) {}
@@ -24,7 +24,7 @@ class CoverTimings {
   /// Lets go of the last cover; figures stay.
   void release() { cover_ = {}; }
 
-  double spent() const { return spent_; }                       ///< seconds, by all calls of measure_cover
+  double spent() const { return spent_; }  ///< seconds, by all calls of measure_cover
   std::size_t cells() const { return cells_; }
   std::size_t memory_bytes() const { return memory_bytes_; }
   std::size_t tapes() const { return tapes_; }
@@ -38,6 +38,8 @@ class CoverTimings {
   double seconds(int threads) const { return cover_seconds_[threads - 1]; }
   /// Processor seconds of the busier of two threads: what a machine with nothing else to do would take at least.
   double busier_thread_seconds() const { return busier_seconds_; }
+  /// Whether threads had to wait for other programs for more than a twentieth of the time: wall clocks then say little.
+  bool disturbed() const { return disturbed_[0] || disturbed_[1]; }
   /// Wall clock: with two threads two points are under way.
   double batch_ns_per_point(int threads) const { return batch_ns_[threads - 1]; }
 
@@ -49,6 +51,7 @@ class CoverTimings {
   double mean_active_ = 0, mean_edge_ = 0;
   double cpu_seconds_ = kInfinity, busier_seconds_ = kInfinity;
   double cover_seconds_[2] = {kInfinity, kInfinity};
+  bool disturbed_[2] = {false, false};
   double batch_ns_[2] = {kInfinity, kInfinity};
 };
 

@@ -1,25 +1,24 @@
 #include "bench/generated_trees.h"
 
-#include "bench/random_numbers.h"
-
-#include <glm/gtc/constants.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "bench/random_numbers.h"
 
 namespace cambium::bench {
 namespace {
 
-constexpr double kSpacing = 0.1;              // metres: the cube root of the volume that an internode has to itself
+constexpr double kSpacing = 0.1;  // metres: the cube root of the volume that an internode has to itself
 constexpr double kTwigRadius = kSpacing / 30;
-constexpr double kInternodeRadii = 4;         // an internode's length; then a fork has about four between it and the next
+constexpr double kInternodeRadii = 4;  // an internode's length; then a fork has about four between it and the next
 
 /// A part of space with the branch that is to fill it.
 struct Region {
   Box box;
-  Vec3 from;                                  ///< on the box's boundary
-  Vec3 heading{0.0};                          ///< of the axis that goes on here; zero where a lateral starts
-  std::int32_t parent = -1;                   ///< node at `from`
+  Vec3 from;                 ///< on the box's boundary
+  Vec3 heading{0.0};         ///< of the axis that goes on here; zero where a lateral starts
+  std::int32_t parent = -1;  ///< node at `from`
   std::size_t internodes = 0;
 };
 
@@ -61,8 +60,8 @@ Skeleton grow(std::size_t internodes, RandomNumbers* random) {
     const double length = glm::length(across);
     // A quadratic curve that leaves in the direction in which the axis came, so that it does not break at every fork.
     const Vec3 bow = region.from + (region.heading == Vec3(0.0) ? 0.5 * across : 0.4 * length * region.heading);
-    const auto steps = static_cast<std::size_t>(
-        std::max(1.0, std::round(length / (kInternodeRadii * radius_bearing(region.internodes)))));
+    const auto steps =
+        static_cast<std::size_t>(std::max(1.0, std::round(length / (kInternodeRadii * radius_bearing(region.internodes)))));
     std::int32_t node = region.parent;
     std::size_t left = region.internodes;
     for (std::size_t i = 1; i <= steps && left > 0; ++i) {
@@ -94,7 +93,7 @@ Skeleton balanced_tree(std::size_t internodes) { return grow(internodes, nullptr
 
 Skeleton single_axis(std::size_t internodes) {
   const double thick = 2 * kTwigRadius, step = kInternodeRadii * 1.5 * kTwigRadius;
-  const double pitch = 6 * thick;             // supports are 2.2 radii
+  const double pitch = 6 * thick;  // supports are 2.2 radii
   const double length = step * static_cast<double>(internodes);
   // As high as it is wide.
   const double helix_radius = std::max(20 * thick, std::sqrt(pitch * length / (4 * glm::pi<double>())));
@@ -105,7 +104,10 @@ Skeleton single_axis(std::size_t internodes) {
     const double turns = step * static_cast<double>(i) / circumference, angle = 2 * glm::pi<double>() * turns;
     const double t = static_cast<double>(i) / static_cast<double>(internodes);
     skeleton.nodes.push_back({{helix_radius * std::cos(angle), helix_radius * std::sin(angle), pitch * turns},
-                              thick * (1 - 0.5 * t), static_cast<std::int32_t>(i) - 1, {}, {}});
+                              thick * (1 - 0.5 * t),
+                              static_cast<std::int32_t>(i) - 1,
+                              {},
+                              {}});
   }
   return skeleton;
 }

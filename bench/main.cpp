@@ -1,7 +1,5 @@
-// Prints one table of what the field costs on this machine, each figure beside the machine's own limit and the target that the
-// project set itself.
-#include "bench/sections.h"
-
+// Prints one table of what the field costs on this machine, each figure beside the machine's own limit and the target that
+// the project set itself.
 #include <fmt/format.h>
 
 #include <exception>
@@ -9,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "bench/sections.h"
 
 namespace cambium::bench {
 namespace {

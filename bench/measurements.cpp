@@ -38,17 +38,22 @@ void take_turns() {
 
 }  // namespace
 
-void Measurements::add(std::string name, std::function<void()> work) { work_.emplace_back(std::move(name), std::move(work)); }
+void Measurements::add(std::string name, std::function<void()> work) {
+  work_.emplace_back(std::move(name), std::move(work));
+}
 
 void Measurements::run() {
   take_turns();
   for (const auto& [name, work] : work_)
-    benchmark::RegisterBenchmark(name.c_str(), [&work](benchmark::State& state) {
-      for (auto _ : state) {
-        work();
-        benchmark::ClobberMemory();
-      }
-    })->Repetitions(pace_.repetitions)->MinTime(pace_.seconds);
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [&work](benchmark::State& state) {
+                                   for (auto _ : state) {
+                                     work();
+                                     benchmark::ClobberMemory();
+                                   }
+                                 })
+        ->Repetitions(pace_.repetitions)
+        ->MinTime(pace_.seconds);
   FastestRuns reporter(fastest_);
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::ClearRegisteredBenchmarks();

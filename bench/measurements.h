@@ -13,10 +13,10 @@ namespace cambium::bench {
 /// How long to measure each piece of work.
 struct Pace {
   int repetitions = 12;
-  double seconds = 0.02;               ///< of each repetition, at least
+  double seconds = 0.02;                 ///< of each repetition, at least
   std::size_t largest_tree = 1'000'000;  ///< internodes of generated trees
-  int cover_rounds = 3;                ///< covers made of each of them, with one thread and with two
-  double cover_seconds = 12;           ///< after so long a tree is measured no more
+  int cover_rounds = 3;                  ///< covers made of each of them, with one thread and with two
+  double cover_seconds = 12;             ///< after so long a tree is measured no more
 };
 
 /// A group whose members are measured in turns: repetitions of all of them in a random order, so that a slow second of the

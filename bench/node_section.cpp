@@ -1,11 +1,11 @@
 // Batches of every primitive and every operator in one cell.
-#include "bench/batch_points.h"
-#include "bench/cell_shapes.h"
-#include "bench/sections.h"
-
 #include <cmath>
 #include <deque>
 #include <functional>
+
+#include "bench/batch_points.h"
+#include "bench/cell_shapes.h"
+#include "bench/sections.h"
 
 namespace cambium::bench {
 namespace {
@@ -38,21 +38,32 @@ const Subject kPrimitives[] = {
        return b.add(RoundCone{line.middle - 0.15 * line.along, line.middle + 0.15 * line.along, 1.2 * kRadius, kRadius, 1});
      }},
     {"chain of 3 segments", 3, [](Builder& b, Random& r) { return b.add(chain_through_cell(r, 3, 0.06)); }},
-    {"sphere", 1, [](Builder& b, Random& r) { return b.add(Sphere{kRadius * r.direction(), kRadius, 1}); }},
+    {"sphere", 1,
+     [](Builder& b, Random& r) {
+       return b.add(Sphere{kRadius * r.direction(), kRadius, 1});
+     }},
     {"capsule", 1,
      [](Builder& b, Random& r) {
        const BranchLine line = branch_line(r);
        return b.add(Capsule{line.middle - 0.15 * line.along, line.middle + 0.15 * line.along, kRadius, 1});
      }},
-    {"disc", 1, [](Builder& b, Random& r) { return b.add(Disc{0.08 * r.direction(), r.direction(), kRadius, kRadius, 1}); }},
-    {"torus", 1, [](Builder& b, Random& r) { return b.add(Torus{0.1 * r.direction(), r.direction(), 0.1, kRadius, 1}); }},
+    {"disc", 1,
+     [](Builder& b, Random& r) {
+       return b.add(Disc{0.08 * r.direction(), r.direction(), kRadius, kRadius, 1});
+     }},
+    {"torus", 1,
+     [](Builder& b, Random& r) {
+       return b.add(Torus{0.1 * r.direction(), r.direction(), 0.1, kRadius, 1});
+     }},
     {"box", 1,
      [](Builder& b, Random& r) {
        const Vec3 axis = r.direction();
        const double half = 0.4;  // of the angle it is turned by
-       return b.add(RotatedBox{0.07 * r.direction(), Vec3(0.03, 0.02, 0.04),
+       return b.add(RotatedBox{0.07 * r.direction(),
+                               Vec3(0.03, 0.02, 0.04),
                                {std::cos(half), std::sin(half) * axis.x, std::sin(half) * axis.y, std::sin(half) * axis.z},
-                               kRadius, 1});
+                               kRadius,
+                               1});
      }},
     {"half_space (intersection with a cone)", 2,
      [](Builder& b, Random& r) {
@@ -67,14 +78,23 @@ const Subject kOperators[] = {
     {"union of 2 cones", 2, [](Builder& b, Random& r) { return b.add(Union{two_cones(b, r)}); }},
     {"intersection of 2 cones", 2, [](Builder& b, Random& r) { return b.add(Intersection{two_cones(b, r)}); }},
     {"difference of 2 cones", 2, [](Builder& b, Random& r) { return b.add(Difference{two_cones(b, r)}); }},
-    {"ricci of 2 cones", 2, [](Builder& b, Random& r) { return b.add(Ricci{two_cones(b, r), 2.5}); }},
-    {"contact of 2 cones", 2, [](Builder& b, Random& r) { return b.add(Contact{two_cones(b, r), kIso, 1.5}); }},
+    {"ricci of 2 cones", 2,
+     [](Builder& b, Random& r) {
+       return b.add(Ricci{two_cones(b, r), 2.5});
+     }},
+    {"contact of 2 cones", 2,
+     [](Builder& b, Random& r) {
+       return b.add(Contact{two_cones(b, r), kIso, 1.5});
+     }},
     {"fork: a cone bears a cone", 2,
      [](Builder& b, Random& r) {
        const std::vector<NodeId> both = two_cones(b, r);
        return b.add(Fork{both[0], {{both[1], Vec3(0.01, 0, -0.02), r.direction(), 0.6 * kRadius, 4 * kRadius}}, kIso, 1.5});
      }},
-    {"scale_field of a cone", 1, [](Builder& b, Random& r) { return b.add(ScaleField{0.8, add_cone(b, r)}); }},
+    {"scale_field of a cone", 1,
+     [](Builder& b, Random& r) {
+       return b.add(ScaleField{0.8, add_cone(b, r)});
+     }},
     {"transform of a cone", 1,
      [](Builder& b, Random& r) {
        const double angle = 0.2, scale = 1.1;
@@ -94,9 +114,13 @@ const Subject kOperators[] = {
        return b.add(Bend{from, line.middle + 0.15 * line.along, r.across(line.along), angle, straight});
      }},
     {"twist of a cone", 1,
-     [](Builder& b, Random& r) { return b.add(Twist{Vec3(0.0), r.direction(), 2.0, add_cone(b, r)}); }},
+     [](Builder& b, Random& r) {
+       return b.add(Twist{Vec3(0.0), r.direction(), 2.0, add_cone(b, r)});
+     }},
     {"taper of a cone", 1,
-     [](Builder& b, Random& r) { return b.add(Taper{Vec3(0.0), r.direction(), -0.1, 1.1, 0.1, 0.9, add_cone(b, r)}); }},
+     [](Builder& b, Random& r) {
+       return b.add(Taper{Vec3(0.0), r.direction(), -0.1, 1.1, 0.1, 0.9, add_cone(b, r)});
+     }},
 };
 
 /// One subject's field and its batch.
@@ -139,10 +163,16 @@ void node_section(Report& report, const Pace& pace) {
   const double cone = primitives.front().value_ns(measurements);
   const auto add_rows = [&](const Measured& measured) {
     const double value = measured.value_ns(measurements), sample = measured.sample_ns(measurements);
-    report.add({.what = measured.subject().name, .figure = value, .unit = "ns/point",
-                .ratio = value / (cone * static_cast<double>(measured.subject().atoms)), .ratio_to = "as many cones' time"});
-    report.add({.what = std::string(measured.subject().name) + ", gradients", .figure = sample, .unit = "ns/point",
-                .ratio = sample / value, .ratio_to = "values' time"});
+    report.add({.what = measured.subject().name,
+                .figure = value,
+                .unit = "ns/point",
+                .ratio = value / (cone * static_cast<double>(measured.subject().atoms)),
+                .ratio_to = "as many cones' time"});
+    report.add({.what = std::string(measured.subject().name) + ", gradients",
+                .figure = sample,
+                .unit = "ns/point",
+                .ratio = sample / value,
+                .ratio_to = "values' time"});
   };
   report.heading("Primitives in a cell, batches of 729 points");
   for (const Measured& measured : primitives) add_rows(measured);

@@ -1,23 +1,24 @@
 // The poplar of examples/: what its steps cost, and points, intervals, pruning and batches in cells on its surface.
+#include <benchmark/benchmark.h>
+
+#include <deque>
+#include <filesystem>
+#include <glm/gtc/constants.hpp>
+#include <optional>
+#include <stdexcept>
+
 #include "bench/batch_points.h"
 #include "bench/clock.h"
+#include "bench/cover_rows.h"
 #include "bench/sections.h"
 #include "bench/surface_places.h"
 #include "lsystem/lsystem.h"
 #include "skeletons/surface.h"
 
-#include <benchmark/benchmark.h>
-#include <glm/gtc/constants.hpp>
-
-#include <deque>
-#include <filesystem>
-#include <optional>
-#include <stdexcept>
-
 namespace cambium::bench {
 namespace {
 
-constexpr std::size_t kCells = 512;       // their pruned fields stay in the second cache
+constexpr std::size_t kCells = 512;  // their pruned fields stay in the second cache
 constexpr std::size_t kBatchCells = 64;
 constexpr int kEdge = 9;
 
@@ -38,8 +39,8 @@ SurfaceOptions poplar_options() {
 struct Cells {
   std::vector<SurfacePlace> places;
   std::vector<PrunedField> fields;
-  std::vector<ActiveSet> around;         ///< of boxes twice as wide
-  std::deque<BatchPoints> points;        ///< of the first kBatchCells
+  std::vector<ActiveSet> around;   ///< of boxes twice as wide
+  std::deque<BatchPoints> points;  ///< of the first kBatchCells
   double mean_active = 0;
 };
 
@@ -106,8 +107,11 @@ void poplar_section(Report& report, const Pace& pace) {
   report.heading("Poplar, cells one branch diameter across on its surface");
   report.add({.what = "primitives active in a cell", .figure = cells.mean_active, .unit = "on average"});
   report.add({.what = "Evaluator::value in a pruned cell", .figure = per_cell("value"), .unit = "ns/point"});
-  report.add({.what = "Evaluator::sample", .figure = per_cell("sample"), .unit = "ns/point",
-              .ratio = per_cell("sample") / per_cell("value"), .ratio_to = "value's time"});
+  report.add({.what = "Evaluator::sample",
+              .figure = per_cell("sample"),
+              .unit = "ns/point",
+              .ratio = per_cell("sample") / per_cell("value"),
+              .ratio_to = "value's time"});
   report.add({.what = "Evaluator::interval of the cell", .figure = per_cell("interval"), .unit = "ns/cell"});
   report.add({.what = "Field::value", .figure = per_cell("field value"), .unit = "ns/point"});
   report.add({.what = "Field::sample", .figure = per_cell("field sample"), .unit = "ns/point"});
@@ -119,8 +123,20 @@ void poplar_section(Report& report, const Pace& pace) {
   const double batched = kBatchCells * static_cast<double>(kEdge * kEdge * kEdge);
   const double value = measurements.ns("values") / batched, sample = measurements.ns("samples") / batched;
   report.add({.what = "batches of 729 points", .figure = value, .unit = "ns/point"});
-  report.add({.what = "batches of 729 points, gradients", .figure = sample, .unit = "ns/point", .ratio = sample / value,
+  report.add({.what = "batches of 729 points, gradients",
+              .figure = sample,
+              .unit = "ns/point",
+              .ratio = sample / value,
               .ratio_to = "values' time"});
+
+  CoverTimings cover(field);
+  for (int round = 0; round < pace.cover_rounds; ++round) {
+    cover.measure_cover(2);
+    cover.measure_cover(1);
+    cover.measure_batches();
+  }
+  report.heading("Cover of the poplar, cells about a branch diameter across");
+  add_cover_rows(report, cover, {}, true);
 }
 
 }  // namespace cambium::bench

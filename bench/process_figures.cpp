@@ -38,24 +38,26 @@ void reset_peak_resident_bytes() {
   std::ofstream("/proc/self/clear_refs") << "5\n";
 }
 
-std::map<int, double> thread_seconds() {
-  std::map<int, double> seconds;
+std::map<int, ThreadTime> thread_times() {
+  std::map<int, ThreadTime> times;
   std::error_code none;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", none)) {
     std::ifstream schedule(task.path() / "schedstat");
-    double nanoseconds = 0;
-    if (schedule >> nanoseconds) seconds[std::atoi(task.path().filename().c_str())] = nanoseconds * 1e-9;
+    double ran = 0, waited = 0;  // nanoseconds
+    if (schedule >> ran >> waited) times[std::atoi(task.path().filename().c_str())] = {ran * 1e-9, waited * 1e-9};
   }
-  return seconds;
+  return times;
 }
 
-double busiest_thread_seconds(const std::map<int, double>& before) {
-  double most = 0;
-  for (const auto& [thread, seconds] : thread_seconds()) {
+ThreadsSince threads_since(const std::map<int, ThreadTime>& before) {
+  ThreadsSince since;
+  for (const auto& [thread, time] : thread_times()) {
     const auto known = before.find(thread);
-    most = std::max(most, seconds - (known == before.end() ? 0 : known->second));
+    const ThreadTime then = known == before.end() ? ThreadTime{} : known->second;
+    since.busiest_ran = std::max(since.busiest_ran, time.ran - then.ran);
+    since.waited += time.waited - then.waited;
   }
-  return most;
+  return since;
 }
 
 }  // namespace cambium::bench

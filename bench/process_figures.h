@@ -12,9 +12,17 @@ std::size_t peak_resident_bytes();
 /// Gives freed memory back first, so that what is used again counts again.
 void reset_peak_resident_bytes();
 
-/// Processor seconds that each thread alive has had, by its id.
-std::map<int, double> thread_seconds();
-/// The most that any thread has had since `before`; 0 where that is not known.
-double busiest_thread_seconds(const std::map<int, double>& before);
+/// What one thread has had of the processors, and how long it waited for one that others used; seconds.
+struct ThreadTime {
+  double ran = 0, waited = 0;
+};
+/// Of each thread alive, by its id.
+std::map<int, ThreadTime> thread_times();
+
+/// What threads had since `before`: the one that ran most, and all their waiting. Zeros where that is not known.
+struct ThreadsSince {
+  double busiest_ran = 0, waited = 0;
+};
+ThreadsSince threads_since(const std::map<int, ThreadTime>& before);
 
 }  // namespace cambium::bench

@@ -1,10 +1,10 @@
 // Numbers drawn from a seed, the same on every machine and with every standard library.
 #pragma once
 
-#include "blobtree/geometry.h"
-
 #include <cmath>
 #include <cstdint>
+
+#include "blobtree/geometry.h"
 
 namespace cambium::bench {
 

@@ -1,10 +1,10 @@
 #include "bench/report.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 namespace cambium::bench {
@@ -29,8 +29,8 @@ std::string row_text(const Row& row) {
   if (row.ratio) ratio = fmt::format("{:.2f} of {}", *row.ratio, row.ratio_to);
   if (row.target) target = target_text(*row.target);
   if (const auto met = row.met()) verdict = *met ? "pass" : "FAIL";
-  std::string text = fmt::format("  {:<46} {:>9} {:<18} {:>8}  {:<24} {:<9} {}", row.what, figure, row.unit, rate, ratio, target,
-                                 verdict);
+  std::string text =
+      fmt::format("  {:<46} {:>9} {:<18} {:>8}  {:<24} {:<9} {}", row.what, figure, row.unit, rate, ratio, target, verdict);
   text.erase(text.find_last_not_of(' ') + 1);
   return text + '\n';
 }

@@ -23,9 +23,9 @@ inline Target at_most(double bound) { return {Target::Side::kAtMost, bound}; }
 struct Row {
   std::string what;
   std::optional<double> figure{};
-  std::string unit{};                  ///< of the figure: "ns/sample", "s", "B/internode"
+  std::string unit{};  ///< of the figure: "ns/sample", "s", "B/internode"
   std::optional<double> ratio{};
-  std::string ratio_to{};              ///< what the ratio is to: "yardstick", "value"
+  std::string ratio_to{};  ///< what the ratio is to: "yardstick", "value"
   std::optional<Target> target{};
 
   /// Nullopt where nothing is asked.
@@ -39,8 +39,8 @@ class Report {
   void add(Row row);
   /// A line of words, such as a condition under which the rows above were measured.
   void note(std::string text);
-  std::size_t judged() const;          ///< rows with a target
-  std::size_t missed() const;          ///< those whose target is not met
+  std::size_t judged() const;  ///< rows with a target
+  std::size_t missed() const;  ///< those whose target is not met
 
   /// Fixed columns; a figure per `ns` also gives its rate in millions per second.
   std::string table() const;

@@ -25,7 +25,8 @@ std::optional<SurfacePlace> walk_outwards(const SkeletonNode& node, const Vec3& 
 
 }  // namespace
 
-std::vector<SurfacePlace> surface_places(const Skeleton& skeleton, const Field& field, std::size_t count, RandomNumbers random) {
+std::vector<SurfacePlace> surface_places(const Skeleton& skeleton, const Field& field, std::size_t count,
+                                         RandomNumbers random) {
   std::vector<SurfacePlace> places;
   for (std::size_t tries = 0; places.size() < count; ++tries) {
     if (tries > 50 * count) throw std::runtime_error("surface_places: hardly any internode has a surface");

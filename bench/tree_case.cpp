@@ -1,10 +1,10 @@
 #include "bench/tree_case.h"
 
+#include <utility>
+
 #include "bench/clock.h"
 #include "bench/process_figures.h"
 #include "skeletons/surface.h"
-
-#include <utility>
 
 namespace cambium::bench {
 

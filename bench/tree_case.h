@@ -1,16 +1,16 @@
 // A generated tree taken from its skeleton to a field, with what each step cost.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "bench/cover_timings.h"
 #include "bench/surface_places.h"
 #include "blobtree/blobtree.h"
 #include "blobtree/field.h"
 #include "skeletons/skeleton.h"
-
-#include <cstddef>
-#include <functional>
-#include <string>
-#include <vector>
 
 namespace cambium::bench {
 
@@ -19,11 +19,11 @@ struct TreeCase {
   Skeleton skeleton;
   BlobTree tree;
   Field field;
-  CoverTimings cover;                  ///< one with two threads is already timed
-  std::vector<SurfacePlace> places;    ///< where its cells are pruned
+  CoverTimings cover;                ///< one with two threads is already timed
+  std::vector<SurfacePlace> places;  ///< where its cells are pruned
   double surface_seconds = 0, compile_seconds = 0;
-  std::size_t peak_bytes = 0;          ///< resident at most from the skeleton to a cover with two threads, skeleton and all counted
-  double mean_active = 0;              ///< primitives in a cell
+  std::size_t peak_bytes = 0;  ///< resident at most from the skeleton to a cover with two threads, skeleton and all counted
+  double mean_active = 0;      ///< primitives in a cell
 
   double internodes() const { return static_cast<double>(skeleton.nodes.size() - 1); }
 };

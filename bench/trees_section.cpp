@@ -1,8 +1,4 @@
 // Generated trees of a thousand to a million internodes: what grows with the tree, and what must not.
-#include "bench/generated_trees.h"
-#include "bench/sections.h"
-#include "bench/tree_case.h"
-
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -10,18 +6,23 @@
 #include <deque>
 #include <vector>
 
+#include "bench/cover_rows.h"
+#include "bench/generated_trees.h"
+#include "bench/sections.h"
+#include "bench/tree_case.h"
+
 namespace cambium::bench {
 namespace {
 
 constexpr std::size_t kPlaces = 2000;
-constexpr std::size_t kReference = 10'000;     // internodes; the issue's ratios are to a tree of this size
-constexpr double kSameMemory = 1.05;           // vectors round their capacity up
-constexpr double kShared = 1e5;                // internodes; below, a cover takes too few milliseconds to be worth sharing out
-constexpr double kSameTime = 1.1;              // what two runs of the same work differ by on a shared machine
+constexpr std::size_t kReference = 10'000;  // internodes; the issue's ratios are to a tree of this size
+constexpr double kSameMemory = 1.05;        // vectors round their capacity up
+constexpr double kShared = 1e5;             // internodes; below, a cover takes too few milliseconds to be worth sharing out
+constexpr double kSameTime = 1.1;           // what two runs of the same work differ by on a shared machine
 
 struct Cases {
-  std::deque<TreeCase> random;                 // ascending sizes
-  std::deque<TreeCase> shapes;                 // single axis, balanced tree
+  std::deque<TreeCase> random;  // ascending sizes
+  std::deque<TreeCase> shapes;  // single axis, balanced tree
   const TreeCase* reference = nullptr;
 };
 
@@ -29,11 +30,14 @@ Cases make_cases(const Pace& pace) {
   Cases cases;
   for (std::size_t size = 1000; size <= pace.largest_tree; size *= 10) {
     const int power = static_cast<int>(std::lround(std::log10(static_cast<double>(size))));
-    cases.random.push_back(make_tree_case(fmt::format("random tree of 10^{}", power), [&] { return random_tree(size, 5); }, kPlaces));
+    cases.random.push_back(make_tree_case(
+        fmt::format("random tree of 10^{}", power), [&] { return random_tree(size, 5); }, kPlaces));
     if (size == kReference) cases.reference = &cases.random.back();
   }
-  cases.shapes.push_back(make_tree_case("balanced tree of 10^5", [] { return balanced_tree(100'000); }, kPlaces));
-  cases.shapes.push_back(make_tree_case("single axis of 10^5", [] { return single_axis(100'000); }, kPlaces));
+  cases.shapes.push_back(make_tree_case(
+      "balanced tree of 10^5", [] { return balanced_tree(100'000); }, kPlaces));
+  cases.shapes.push_back(make_tree_case(
+      "single axis of 10^5", [] { return single_axis(100'000); }, kPlaces));
   return cases;
 }
 
@@ -46,9 +50,12 @@ std::size_t memory_of(const Part& part) {
     return 0;
 }
 
-double memory_per_internode(const TreeCase& tree, std::size_t bytes) { return static_cast<double>(bytes) / tree.internodes(); }
+double memory_per_internode(const TreeCase& tree, std::size_t bytes) {
+  return static_cast<double>(bytes) / tree.internodes();
+}
 
-/// Figures of one tree that need no repetition. `reference`: the tree that memory is compared with; none for that tree itself.
+/// Figures of one tree that need no repetition. `reference`: the tree that memory is compared with; none for that tree
+/// itself.
 void add_building_rows(Report& report, const TreeCase& tree, const TreeCase* reference) {
   const bool is_million = tree.internodes() == 1e6;
   report.heading(fmt::format("Generated: {} internodes, {} primitives", tree.name, tree.field.atom_count()));
@@ -69,8 +76,10 @@ void add_building_rows(Report& report, const TreeCase& tree, const TreeCase* ref
   };
   memory_row("memory of the BlobTree", [](const TreeCase& of) -> const BlobTree& { return of.tree; });
   if (is_million && memory_of(tree.tree) > 0)
-    report.add({.what = "memory of the BlobTree, of 200 B", .figure = memory_per_internode(tree, memory_of(tree.tree)),
-                .unit = "B/internode", .target = at_most(200)});
+    report.add({.what = "memory of the BlobTree, of 200 B",
+                .figure = memory_per_internode(tree, memory_of(tree.tree)),
+                .unit = "B/internode",
+                .target = at_most(200)});
   memory_row("memory of the Field", [](const TreeCase& of) -> const Field& { return of.field; });
   report.add({.what = "primitives active in a cell at an internode", .figure = tree.mean_active, .unit = "on average"});
 }
@@ -90,41 +99,10 @@ void time_covers(Cases& cases, const Pace& pace) {
     }
 }
 
-/// `to`: the tree that a cell's time is compared with, and the target of that.
-void add_cover_rows(Report& report, const TreeCase& tree, const TreeCase* to, Target target) {
-  const CoverTimings& cover = tree.cover;
-  const double cells = static_cast<double>(cover.cells());
-  report.add({.what = "surface cells", .figure = cells / 1e3, .unit = "thousand"});
-  report.add({.what = "edge of a cell", .figure = cover.mean_edge(), .unit = "branch diameters"});
-  report.add({.what = "primitives active in a cell", .figure = cover.mean_active(), .unit = "on average"});
-  Row cell{.what = "time per surface cell, 1 thread", .figure = cover.ns_per_cell(), .unit = "ns/cell"};
-  if (to) {
-    cell.ratio = cover.ns_per_cell() / to->cover.ns_per_cell();
-    cell.ratio_to = to->name + "'s";
-    cell.target = target;
-  }
-  report.add(cell);
-  report.add({.what = "memory of the cover", .figure = static_cast<double>(cover.memory_bytes()) / cells, .unit = "B/cell"});
-  report.add({.what = "cover, 1 thread", .figure = cover.seconds(1), .unit = "s"});
-  Row both{.what = "cover, 2 threads", .figure = cover.seconds(2), .unit = "s"};
-  both.ratio = cover.seconds(1) / cover.seconds(2);
-  both.ratio_to = "1 thread's speed";
-  Row busier{.what = "cover, 2 threads, processor time of the busier", .figure = cover.busier_thread_seconds(), .unit = "s"};
-  busier.ratio = cover.processor_seconds() / cover.busier_thread_seconds();
-  busier.ratio_to = "1 thread's speed";
-  const double share = cover.processor_seconds() / cover.seconds(1);
-  const bool disturbed = share < 0.9 && cover.busier_thread_seconds() > 0;
-  if (tree.internodes() >= kShared) (disturbed ? busier : both).target = at_least(1.8);
-  report.add(both);
-  if (cover.busier_thread_seconds() > 0) report.add(busier);
-  if (disturbed)
-    report.note(fmt::format("other programs were running: one thread had {:.0f} % of a processor, so seconds say little", 100 * share));
-  const double one = cover.batch_ns_per_point(1), two = cover.batch_ns_per_point(2);
-  report.add({.what = "batches over its cells, 1 thread", .figure = one, .unit = "ns/point"});
-  report.add({.what = "batches over its cells, 2 threads", .figure = two, .unit = "ns/point", .ratio = one / two,
-              .ratio_to = "1 thread's speed"});
+/// What the issue asks of a whole run at a million internodes.
+void add_whole_rows(Report& report, const TreeCase& tree) {
   Row whole{.what = "skeleton to cover, 2 threads", .unit = "s"};
-  whole.figure = tree.surface_seconds + tree.compile_seconds + cover.seconds(2);
+  whole.figure = tree.surface_seconds + tree.compile_seconds + tree.cover.seconds(2);
   Row peak{.what = "peak memory, skeleton to cover", .figure = static_cast<double>(tree.peak_bytes) / 1e9, .unit = "GB"};
   if (tree.internodes() == 1e6) {
     whole.target = at_most(60);
@@ -155,7 +133,10 @@ void trees_section(Report& report, const Pace& pace) {
     Row prune{.what = "prune to such cells, far from each other", .figure = prune_ns(tree), .unit = "ns/cell"};
     if (time_to) prune.ratio = prune_ns(tree) / prune_ns(*time_to), prune.ratio_to = time_to->name + "'s";
     report.add(prune);
-    add_cover_rows(report, tree, time_to, cell_target);
+    CellComparison comparison;
+    if (time_to) comparison = {&time_to->cover, time_to->name + "'s", cell_target};
+    add_cover_rows(report, tree.cover, comparison, tree.internodes() >= kShared);
+    add_whole_rows(report, tree);
   };
   for (const TreeCase& tree : cases.random) {
     const TreeCase* to = tree.internodes() > kReference ? cases.reference : nullptr;
