@@ -40,7 +40,7 @@ class CoverTimings {
   double busier_thread_seconds() const { return busier_seconds_; }
   /// Whether threads had to wait for other programs for more than a twentieth of the time: wall clocks then say little.
   bool disturbed() const { return disturbed_[0] || disturbed_[1]; }
-  /// Wall clock: with two threads two points are under way.
+  /// Processor time of the busier thread over all points: with two threads two points are under way.
   double batch_ns_per_point(int threads) const { return batch_ns_[threads - 1]; }
 
  private:
