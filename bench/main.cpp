@@ -90,6 +90,10 @@ int run(const Arguments& arguments) {
 }  // namespace cambium::bench
 
 int main(int count, char** words) {
+  if (count == 2 && std::string(words[1]) == "--help") {
+    fmt::print("{}", cambium::bench::kUsage);
+    return 0;
+  }
   cambium::bench::Arguments arguments;
   if (!cambium::bench::read_arguments(count, words, arguments)) return 2;
   try {
