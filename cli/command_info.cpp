@@ -1,6 +1,7 @@
 // info: counts, bounds, radii, and what conditioning did.
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "cli/commands.h"
 
@@ -9,10 +10,9 @@ namespace {
 
 Json as_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
-double path_length(const Chain& chain) {
+double path_length(std::span<const ChainNode> nodes) {
   double length = 0;
-  for (std::size_t i = 1; i < chain.nodes.size(); ++i)
-    length += glm::distance(chain.nodes[i - 1].position, chain.nodes[i].position);
+  for (std::size_t i = 1; i < nodes.size(); ++i) length += glm::distance(nodes[i - 1].position, nodes[i].position);
   return length;
 }
 
@@ -34,10 +34,13 @@ Json list_branches(const BlobTree& tree) {
     branch.radius_end = branch.radius_end > 0 ? std::min(branch.radius_end, radius_end) : radius_end;
   };
   for (NodeId id = 0; id < tree.size(); ++id) {
-    if (const auto* chain = std::get_if<Chain>(&tree.node(id)))
-      add(id, chain->nodes.front().position, path_length(*chain), chain->nodes.front().radius, chain->nodes.back().radius);
-    else if (const auto* cone = std::get_if<Cone>(&tree.node(id)); cone && cone->strength > 0)
-      add(id, cone->base, glm::distance(cone->base, cone->tip), cone->radius_base, cone->radius_tip);
+    if (tree.kind(id) == kNodeKind<Chain>) {
+      const std::span<const ChainNode> nodes = tree.chain_nodes(id);
+      add(id, nodes.front().position, path_length(nodes), nodes.front().radius, nodes.back().radius);
+    } else if (tree.kind(id) == kNodeKind<Cone>) {
+      const Cone cone = tree.get<Cone>(id);
+      if (cone.strength > 0) add(id, cone.base, glm::distance(cone.base, cone.tip), cone.radius_base, cone.radius_tip);
+    }
   }
   Json list = Json::array();
   for (const auto& [id, branch] : branches)

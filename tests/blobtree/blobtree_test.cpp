@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <set>
 
 namespace cambium {
 namespace {
@@ -134,7 +135,12 @@ TEST(BlobTreeBuilder, UsesEveryChildOnce) {
   EXPECT_THROW(b.add(Sum{{a, a}}), InvalidNode);
   const NodeId s = b.add(Sum{{a, c}});  // the refused one has claimed nothing
   EXPECT_THROW(b.add(Union{{a}}), InvalidNode);
-  EXPECT_EQ(children_of(b.build(s).node(s)), (std::vector<NodeId>{a, c}));
+  const NodeId free = b.add(kSphere);
+  EXPECT_THROW(b.add(Union{{free, a}}), InvalidNode);
+  EXPECT_THROW(b.add(Fork{free, {{free, {}, {1, 0, 0}, 1, 1}}, 0.5, 0}), InvalidNode);
+  const NodeId root = b.add(Contact{{s, free}});
+  const BlobTree tree = b.build(root);
+  EXPECT_EQ(children_of(tree.node(s)), (std::vector<NodeId>{a, c}));
 }
 
 TEST(BlobTreeBuilder, BuildsOnlyOneWholeTree) {
@@ -166,6 +172,111 @@ TEST(BlobTree, GivesNamesAndAttributesOfEachNode) {
   EXPECT_EQ(tree.attributes(children[2]).branch, 7u);
   EXPECT_EQ(tree.attributes(children[2]).v_begin, 1.5);
   EXPECT_EQ(tree.attributes(children[1]).order, 0u);
+}
+
+TEST(BlobTree, TakesAttributesInAnyOrder) {
+  BlobTreeBuilder b;
+  std::vector<NodeId> children;
+  for (int i = 0; i < 1000; ++i) children.push_back(b.add(kSphere));
+  const auto has_some = [](NodeId id) { return id % 7 == 3 || id / 64 == 5; };
+  for (NodeId i = 0; i < 1000; ++i)  // a permutation of all ids
+    if (const NodeId id = i * 617 % 1000; has_some(id)) b.set_attributes(id, {id + 1, 1, 0.5 * id, {0, 0, 1}});
+  b.set_attributes(3, {77, 1, 0, {0, 0, 1}});
+  const BlobTree tree = b.build(b.add(Sum{children}));
+  for (NodeId id = 0; id < tree.size(); ++id) {
+    const std::uint32_t wanted = id == 3 ? 77 : has_some(id) && id < 1000 ? id + 1 : 0;
+    ASSERT_EQ(tree.attributes(id).branch, wanted) << id;
+  }
+}
+
+// Two of every node with lists, so that the second begins inside the pools.
+TEST(BlobTree, GivesBackEveryNodeAsItWasAdded) {
+  const Vec3 o(1, 2, 3), p(4, 5, 7), x(1, 0, 0), z(0, 0, 1);
+  Mat4 moved(1.0);
+  moved[3] = {5, 6, 7, 1};
+  BlobTreeBuilder b;
+  std::vector<NodeId> of;
+  const auto add = [&](Node node) { return of.emplace_back(b.add(std::move(node))); };
+  add(Cone{o, p, 3, 2, 0.5});
+  add(RoundCone{p, o, 1, 2, 0.25});
+  add(Chain{{{o, 1}, {p, 2}, {x, 3}}, 1});
+  add(Chain{{{z, 4}, {o, 5}}, -2});
+  add(Sphere{o, 4, 3});
+  add(Capsule{o, p, 5, 4});
+  add(Disc{o, z, 6, 5, 0.1});
+  add(Torus{o, z, 8, 7, 0.2});
+  add(RotatedBox{o, p, {0, 1, 0, 0}, 9, 0.3});
+  add(HalfSpace{o, z, 11});
+  const NodeId sum = b.add(Sum{{of[0], of[1]}}), other_sum = b.add(Sum{{of[2]}}), all = b.add(Union{{sum, other_sum}});
+  const NodeId ricci = b.add(Ricci{{of[3]}, 3}), contact = b.add(Contact{{all, ricci}, 0.25, 2});
+  const NodeId fork = b.add(Fork{of[4], {{of[5], o, x, 2, 3}, {of[6], p, z, 4, 5}}, 0.125, 3});
+  const NodeId other_fork = b.add(Fork{of[7], {{of[8], p, x, 6, 7}}, 0.375, 1});
+  const NodeId cut = b.add(Intersection{{fork, of[9]}}), less = b.add(Difference{{cut, other_fork}});
+  const NodeId scaled = b.add(ScaleField{2, less}), rigid = b.add(Transform{moved, scaled});
+  const NodeId bend = b.add(Bend{o, p, x, 0.5, rigid}), twist = b.add(Twist{o, z, 6, bend});
+  const NodeId taper = b.add(Taper{p, z, 1, 2, 3, 4, twist});
+  const BlobTree tree = b.build(b.add(Sum{{contact, taper}}));
+
+  const Cone cone = tree.get<Cone>(of[0]);
+  EXPECT_TRUE(cone.base == o && cone.tip == p && cone.radius_base == 3 && cone.radius_tip == 2 && cone.strength == 0.5);
+  EXPECT_EQ(tree.get<RoundCone>(of[1]).base, p);
+  EXPECT_EQ(tree.get<Chain>(of[2]).nodes.size(), 3u);
+  const Chain chain = tree.get<Chain>(of[3]);
+  ASSERT_EQ(chain.nodes.size(), 2u);
+  EXPECT_TRUE(chain.nodes[0].position == z && chain.nodes[0].radius == 4 && chain.nodes[1].position == o);
+  EXPECT_EQ(chain.strength, -2);
+  EXPECT_EQ(tree.get<Sphere>(of[4]).strength, 3);
+  EXPECT_EQ(tree.get<Capsule>(of[5]).radius, 5);
+  EXPECT_EQ(tree.get<Disc>(of[6]).disc_radius, 6);
+  EXPECT_EQ(tree.get<Torus>(of[7]).ring_radius, 8);
+  EXPECT_EQ(tree.get<RotatedBox>(of[8]).rotation, glm::dvec4(0, 1, 0, 0));
+  EXPECT_EQ(tree.get<HalfSpace>(of[9]).width, 11);
+  EXPECT_EQ(tree.get<Sum>(other_sum).children, std::vector<NodeId>{of[2]});
+  EXPECT_EQ(tree.get<Union>(all).children, (std::vector<NodeId>{sum, other_sum}));
+  EXPECT_EQ(tree.get<Intersection>(cut).children, (std::vector<NodeId>{fork, of[9]}));
+  EXPECT_EQ(tree.get<Difference>(less).children, (std::vector<NodeId>{cut, other_fork}));
+  EXPECT_EQ(tree.get<Ricci>(ricci).exponent, 3);
+  EXPECT_EQ(tree.get<Ricci>(ricci).children, std::vector<NodeId>{of[3]});
+  EXPECT_EQ(tree.get<Contact>(contact).width, 0.25);
+  EXPECT_EQ(tree.get<Contact>(contact).lip, 2);
+  const Fork second = tree.get<Fork>(other_fork);
+  EXPECT_TRUE(second.axis == of[7] && second.width == 0.375 && second.lip == 1);
+  ASSERT_EQ(second.laterals.size(), 1u);
+  const Lateral& lateral = second.laterals[0];
+  EXPECT_TRUE(lateral.child == of[8] && lateral.point == p && lateral.direction == x);
+  EXPECT_TRUE(lateral.softness == 6 && lateral.reach == 7);
+  EXPECT_EQ(tree.get<ScaleField>(scaled).factor, 2);
+  EXPECT_EQ(tree.get<Transform>(rigid).matrix, moved);
+  EXPECT_EQ(tree.get<Bend>(bend).angle, 0.5);
+  EXPECT_EQ(tree.get<Twist>(twist).rate, 6);
+  EXPECT_EQ(tree.get<Taper>(taper).to_scale, 4);
+
+  std::set<std::size_t> kinds;
+  for (NodeId id = 0; id < tree.size(); ++id) {
+    const Node node = tree.node(id);
+    kinds.insert(tree.kind(id));
+    EXPECT_EQ(tree.kind(id), node.index());
+    const auto children = tree.children(id);
+    EXPECT_EQ(children_of(node), std::vector<NodeId>(children.begin(), children.end()));
+    EXPECT_EQ(tree.chain_nodes(id).size(), node.index() == kNodeKind<Chain> ? std::get<Chain>(node).nodes.size() : 0);
+    EXPECT_EQ(tree.laterals(id).size(), node.index() == kNodeKind<Fork> ? std::get<Fork>(node).laterals.size() : 0);
+  }
+  EXPECT_EQ(kinds.size(), std::variant_size_v<Node>);
+  EXPECT_EQ(tree.chain_nodes(of[3])[1].radius, 5);
+  EXPECT_EQ(tree.laterals(fork)[1].reach, 5);
+  EXPECT_THROW(tree.get<Sphere>(fork), std::bad_variant_access);
+}
+
+TEST(BlobTree, CountsTheBytesOfWhatItHolds) {
+  BlobTreeBuilder b;
+  std::vector<NodeId> children;
+  const int count = 1000;
+  for (int i = 0; i < count; ++i) children.push_back(b.add(Chain{{{{0, 0, 0}, 1}, {{0, 0, 1}, 1}, {{0, 1, 1}, 1}}, 1}));
+  b.set_name(children[7], std::string(5000, 'x'));
+  const std::size_t bytes = b.build(b.add(Sum{children})).memory_bytes();
+  const std::size_t least = count * (3 * sizeof(ChainNode) + sizeof(NodeId)) + 5000;
+  EXPECT_GE(bytes, least);
+  EXPECT_LE(bytes, least + count * 24);  // an entry of the node table and a range per chain
 }
 
 TEST(ChildrenOf, GivesAForksAxisFirst) {

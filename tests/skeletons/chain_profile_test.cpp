@@ -7,13 +7,13 @@
 namespace cambium {
 namespace {
 
-const Fork& root_fork(const BlobTree& tree) { return std::get<Fork>(tree.node(tree.root())); }
+Fork root_fork(const BlobTree& tree) { return tree.get<Fork>(tree.root()); }
 
 TEST(ChainProfile, AnAxisWithoutLateralsIsABareChain) {
   Skeleton s;
   for (int i = 0; i < 4; ++i) s.nodes.push_back(node_at({0, 0, 2.0 * i}, 0.3 - 0.05 * i, i - 1));
   const Surfaced made = surface(s, {});
-  const Chain& chain = std::get<Chain>(made.tree.node(made.tree.root()));
+  const Chain chain = made.tree.get<Chain>(made.tree.root());
   ASSERT_EQ(chain.nodes.size(), 4u);
   EXPECT_EQ(chain.nodes[2].position, Vec3(0, 0, 4));
   EXPECT_EQ(chain.nodes[2].radius, 0.3 - 0.05 * 2);
@@ -25,7 +25,7 @@ TEST(ChainProfile, AForkHasTheNumbersOfTheSpecification) {
   options.width = 0.4;
   options.lip = 1.5;
   const Surfaced made = surface(fork_tree(axis_radius, r, 50, h), options);
-  const Fork& fork = root_fork(made.tree);
+  const Fork fork = root_fork(made.tree);
   EXPECT_EQ(fork.width, 0.4);
   EXPECT_EQ(fork.lip, 1.5);
   ASSERT_EQ(fork.laterals.size(), 1u);
@@ -34,7 +34,7 @@ TEST(ChainProfile, AForkHasTheNumbersOfTheSpecification) {
   EXPECT_DOUBLE_EQ(lateral.softness, 0.6 * r);
   EXPECT_DOUBLE_EQ(lateral.reach, 2 * (axis_radius + r));
   EXPECT_LT(glm::distance(lateral.direction, Vec3(-std::cos(a), 0, std::sin(a))), 1e-12);
-  const Chain& chain = std::get<Chain>(made.tree.node(lateral.child));
+  const Chain chain = made.tree.get<Chain>(lateral.child);
   const double delta = 2.2016634851 * r - axis_radius;
   EXPECT_LT(glm::distance(chain.nodes[0].position, Vec3(0, 0, h) + delta * Vec3(std::sin(a), 0, std::cos(a))), 1e-9);
   EXPECT_DOUBLE_EQ(chain.nodes[0].radius, r);
@@ -42,7 +42,7 @@ TEST(ChainProfile, AForkHasTheNumbersOfTheSpecification) {
 
 TEST(ChainProfile, AThinLateralStartsOnTheAxis) {
   const Surfaced made = surface(fork_tree(0.5, 0.2, 50, 10), {});
-  const Chain& chain = std::get<Chain>(made.tree.node(root_fork(made.tree).laterals[0].child));
+  const Chain chain = made.tree.get<Chain>(root_fork(made.tree).laterals[0].child);
   EXPECT_EQ(chain.nodes[0].position, Vec3(0, 0, 10));
 }
 
@@ -76,7 +76,7 @@ TEST(ChainProfile, ALateralShorterThanDeltaBecomesAStubThatStaysOffTheFarSide) {
   Skeleton s = fork_tree(0.5, 0.5, 90, 10);
   s.nodes[3].position = {0.55, 0, 10};  // delta is 0.6
   const Surfaced made = surface(s, {});
-  const Chain& stub = std::get<Chain>(made.tree.node(root_fork(made.tree).laterals[0].child));
+  const Chain stub = made.tree.get<Chain>(root_fork(made.tree).laterals[0].child);
   ASSERT_EQ(stub.nodes.size(), 1u);
   EXPECT_NEAR(kSupportPerRadius * stub.nodes[0].radius, 0.5 + 0.55, 1e-9);
   EXPECT_EQ(made.report.notes.size(), 1u);
@@ -93,7 +93,7 @@ TEST(ChainProfile, BendsArePutIntoTheNodesAndKeepTheEnds) {
   SurfaceOptions options;
   options.bend = {0, degrees(30)};
   const Surfaced made = surface(fork_tree(0.5, 0.2, 50, 10), options);
-  const Chain& chain = std::get<Chain>(made.tree.node(root_fork(made.tree).laterals[0].child));
+  const Chain chain = made.tree.get<Chain>(root_fork(made.tree).laterals[0].child);
   const Vec3 tip = Vec3(0, 0, 10) + 10.0 * Vec3(std::sin(degrees(50)), 0, std::cos(degrees(50)));
   ASSERT_EQ(chain.nodes.size(), 7u);
   EXPECT_EQ(chain.nodes.front().position, Vec3(0, 0, 10));
@@ -106,7 +106,7 @@ TEST(ChainProfile, BendsArePutIntoTheNodesAndKeepTheEnds) {
 TEST(ChainProfile, CarriesBranchOrderAndMetresFromTheRoot) {
   const double r = 0.3, h = 10;
   const Surfaced made = surface(fork_tree(0.5, r, 50, h), {});
-  const Fork& fork = root_fork(made.tree);
+  const Fork fork = root_fork(made.tree);
   const Attributes& trunk = made.tree.attributes(fork.axis);
   const Attributes& lateral = made.tree.attributes(fork.laterals[0].child);
   EXPECT_EQ(trunk.branch, 0u);

@@ -2,11 +2,14 @@
 
 #include "blobtree/field.h"
 #include "blobtree/input_error.h"
+#include "grown_trees.h"
 #include "small_trees.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <utility>
 
 namespace cambium {
 namespace {
@@ -64,6 +67,24 @@ TEST(Surface, NoiseBecomesALegalFieldInBothProfiles) {
     const Field field(made.tree);
     EXPECT_TRUE(field.bounds().bounded());
     EXPECT_TRUE(std::isfinite(field.value(Vec3(0.0))));
+  }
+}
+
+// Linear in the number of internodes, so small trees speak for large ones.
+TEST(Surface, ABlobTreeTakesAtMost200BytesPerInternode) {
+  const std::pair<const char*, Skeleton> trees[] = {
+      {"axis", grown_axis(10000)}, {"binary tree", grown_binary_tree(10000)}, {"branches", grown_branches(10000)}};
+  for (const auto& [name, skeleton] : trees) {
+    for (const Profile profile : {Profile::kChain, Profile::kGalbraith}) {
+      SCOPED_TRACE(name);
+      SurfaceOptions options;
+      options.profile = profile;
+      const Surfaced made = surface(skeleton, options);
+      // Rounded corners make more internodes of those given; both are to hold.
+      const std::size_t internodes = std::min(made.report.internodes_in, made.report.internodes);
+      EXPECT_GE(internodes, 9000u);
+      EXPECT_LE(made.tree.memory_bytes(), 200 * internodes);
+    }
   }
 }
 
