@@ -41,15 +41,6 @@ Cases make_cases(const Pace& pace) {
   return cases;
 }
 
-/// 0 for what does not say.
-template <class Part>
-std::size_t memory_of(const Part& part) {
-  if constexpr (requires { part.memory_bytes(); })
-    return part.memory_bytes();
-  else
-    return 0;
-}
-
 double memory_per_internode(const TreeCase& tree, std::size_t bytes) {
   return static_cast<double>(bytes) / tree.internodes();
 }
@@ -64,20 +55,19 @@ void add_building_rows(Report& report, const TreeCase& tree, const TreeCase* ref
   report.add(surface);
   report.add({.what = "compile to a Field", .figure = tree.compile_seconds, .unit = "s"});
   const auto memory_row = [&](const char* what, const auto& part) {
-    if (memory_of(part(tree)) == 0) return;
-    const double bytes = memory_per_internode(tree, memory_of(part(tree)));
+    const double bytes = memory_per_internode(tree, part(tree).memory_bytes());
     Row row{.what = what, .figure = bytes, .unit = "B/internode"};
     if (reference) {
-      row.ratio = bytes / memory_per_internode(*reference, memory_of(part(*reference)));
+      row.ratio = bytes / memory_per_internode(*reference, part(*reference).memory_bytes());
       row.ratio_to = reference->name + "'s";
       row.target = at_most(kSameMemory);
     }
     report.add(row);
   };
   memory_row("memory of the BlobTree", [](const TreeCase& of) -> const BlobTree& { return of.tree; });
-  if (is_million && memory_of(tree.tree) > 0)
+  if (is_million)
     report.add({.what = "memory of the BlobTree, of 200 B",
-                .figure = memory_per_internode(tree, memory_of(tree.tree)),
+                .figure = memory_per_internode(tree, tree.tree.memory_bytes()),
                 .unit = "B/internode",
                 .target = at_most(200)});
   memory_row("memory of the Field", [](const TreeCase& of) -> const Field& { return of.field; });
