@@ -1,5 +1,8 @@
 #include "raytrace/framing.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -74,6 +77,28 @@ View frame(const Camera& camera, std::span<const Box> boxes, int width, int heig
   const double distance = std::max(across.distance(), upright.distance());
   view.eye = origin + across.center() * view.right + upright.center() * view.up - distance * view.forward;
   return view;
+}
+
+std::vector<Box> surface_boxes(const SurfaceCover& cover) {
+  const int parts = std::clamp(static_cast<int>(std::cbrt(200000.0 / std::max<std::size_t>(cover.size(), 1))), 1, 24);
+  std::vector<Box> found(cover.size());
+  tbb::enumerable_thread_specific<Evaluator> evaluators;
+  tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
+    const PrunedField field = cover.field(i);
+    const Box& cell = field.box();
+    if (parts == 1) {
+      found[i] = cell;
+      return;
+    }
+    const Vec3 size = cell.size() / double(parts);
+    for (int k = 0; k < parts * parts * parts; ++k) {
+      const Vec3 lo = cell.lo + size * Vec3(k % parts, k / parts % parts, k / (parts * parts));
+      const Box part{lo, lo + size};
+      if (evaluators.local().interval(field, part).contains(kIso)) found[i].extend(part);
+    }
+  });
+  std::erase_if(found, [](const Box& box) { return box.empty(); });
+  return found;
 }
 
 }  // namespace cambium

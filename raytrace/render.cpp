@@ -1,7 +1,7 @@
 #include "raytrace/render.h"
 
 #include "blobtree/input_error.h"
-#include "raytrace/cover.h"
+#include "blobtree/surface_cover.h"
 #include "raytrace/framing.h"
 #include "raytrace/shading.h"
 #include "raytrace/smoothing.h"
@@ -23,6 +23,7 @@ namespace {
 
 constexpr int kBaseSamples = 4;
 constexpr int kTile = 16;
+constexpr std::size_t kMostCells = 4000000;   // of a cover: beyond, its hierarchy would take more memory than it saves time
 constexpr double kContrast = 0.035;   // of displayed luminance between neighbours, above which a pixel is refined
 
 using Clock = std::chrono::steady_clock;
@@ -181,19 +182,17 @@ class Frame {
 };
 
 /// Where the lowest primitive's axis ends: a trunk's chain starts at the root, and its round end lies below it.
-double ground_height(const Field& field, const std::vector<PrunedField>& cells) {
+double ground_height(const Field& field, const Box& surface) {
   double lowest = kInfinity, height = 0;
   for (std::uint32_t atom = 0; atom < field.atom_count(); ++atom) {
     const double radius = field.atom_radius(atom);
-    const Box& support = field.atom_bounds(atom);
+    const Box support = field.atom_bounds(atom);
     if (!(radius < kInfinity) || !support.bounded() || support.lo.z >= lowest) continue;
     lowest = support.lo.z;
     height = support.lo.z + kSupportPerRadius * radius;
   }
   if (lowest < kInfinity) return height;
-  double surface = kInfinity;
-  for (const PrunedField& cell : cells) surface = std::min(surface, cell.box().lo.z);
-  return surface < kInfinity ? surface : 0;
+  return surface.empty() ? 0 : surface.lo.z;
 }
 
 void check(const RenderOptions& options) {
@@ -208,15 +207,17 @@ void check(const RenderOptions& options) {
 std::optional<Rendered> render_in_arena(const Field& field, const RenderOptions& options, const RunOptions& run) {
   Rendered out;
   const auto cover_start = Clock::now();
-  auto cells = cover_for_tracing(field, TraceCoverOptions{}, run);
-  if (!cells) return std::nullopt;
-  out.report.cells = cells->size();
+  CoverOptions cells;
+  cells.max_cells = kMostCells;
+  auto cover = cover_surface(field, cells, run);
+  if (!cover) return std::nullopt;
+  out.report.cells = cover->size();
 
-  std::vector<Box> boxes = surface_boxes(*cells);
+  std::vector<Box> boxes = surface_boxes(*cover);
   Box whole;
   for (const Box& box : boxes) whole.extend(box);
   std::optional<Ground> ground;
-  if (options.light.ground) ground = {options.light.ground_height.value_or(ground_height(field, *cells)), 1.0};
+  if (options.light.ground) ground = {options.light.ground_height.value_or(ground_height(field, whole)), 1.0};
   if (ground && !whole.empty()) {
     // What the ground hides is not framed.
     std::erase_if(boxes, [&](const Box& box) { return box.hi.z < ground->height; });
@@ -226,7 +227,7 @@ std::optional<Rendered> render_in_arena(const Field& field, const RenderOptions&
     const double size = whole.empty() ? 1 : glm::length(whole.size());
     ground->fade = 9 * (size + (whole.empty() ? 0 : glm::length(view.eye - whole.center())));
   }
-  const Tracer tracer(std::move(*cells));
+  const Tracer tracer(std::move(*cover));
   out.report.seconds_cover = seconds_since(cover_start);
 
   const auto trace_start = Clock::now();

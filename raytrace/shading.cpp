@@ -59,7 +59,7 @@ Vec3 Shading::sky_from(Evaluator& evaluator, const Vec3& p, const Vec3& normal, 
 
 CameraSample Shading::on_surface(Evaluator& evaluator, const Ray& ray, const SurfaceHit& hit, const PixelSampler& sampler,
                                  std::uint32_t index) const {
-  const PrunedField& field = tracer_.cells()[hit.cell];
+  const PrunedField field = tracer_.cover().field(hit.cell);
   const Vec3 p = glm::clamp(ray.at(hit.t), field.box().lo, field.box().hi);
   const Sample gradient = evaluator.sample(field, p);
   const double steepness = glm::length(gradient.gradient);

@@ -49,11 +49,11 @@ void init(Query& query) {
 struct Tracer::Scene {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  const std::vector<PrunedField>* cells = nullptr;
+  const SurfaceCover& cells;
   Vec3 center{0.0};   // float coordinates are relative to this
   double pad = 0;     // covers what a ray loses by being rounded to float
 
-  Scene(const std::vector<PrunedField>& cells_in, const Box& bounds) : cells(&cells_in) {
+  Scene(const SurfaceCover& cover, const Box& bounds) : cells(cover) {
     center = bounds.center();
     pad = 2e-6 * glm::length(bounds.size());
     device = rtcNewDevice(nullptr);
@@ -61,7 +61,7 @@ struct Tracer::Scene {
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(cells->size()));
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(cells.size()));
     rtcSetGeometryUserData(geometry, this);
     rtcSetGeometryBoundsFunction(geometry, bounds_of_cell, nullptr);
     rtcSetGeometryIntersectFunction(geometry, intersect_cell);
@@ -89,7 +89,7 @@ struct Tracer::Scene {
 
   static void bounds_of_cell(const RTCBoundsFunctionArguments* args) {
     const Scene& self = *static_cast<const Scene*>(args->geometryUserPtr);
-    const Box& box = (*self.cells)[args->primID].box();
+    const Box box = self.cells.box(args->primID);
     const Vec3 lo = box.lo - self.center - self.pad, hi = box.hi - self.center + self.pad;
     RTCBounds& out = *args->bounds_o;
     out.lower_x = below(lo.x), out.lower_y = below(lo.y), out.lower_z = below(lo.z);
@@ -98,7 +98,7 @@ struct Tracer::Scene {
 
   /// Improves query.hit by one cell.
   static bool solve(const Scene& self, Query& query, unsigned cell) {
-    const PrunedField& field = (*self.cells)[cell];
+    const PrunedField field = self.cells.field(cell);
     const auto part = clip(*query.ray, field.box(), query.segment);
     if (!part) return false;
     const auto t = first_root(*query.evaluator, field, *query.ray, *part);
@@ -153,9 +153,9 @@ struct Tracer::Scene {
   }
 };
 
-Tracer::Tracer(std::vector<PrunedField> cells) : cells_(std::move(cells)) {
-  for (const PrunedField& cell : cells_) bounds_.extend(cell.box());
-  if (!cells_.empty()) scene_ = std::make_unique<Scene>(cells_, bounds_);
+Tracer::Tracer(SurfaceCover cover) : cover_(std::move(cover)) {
+  for (std::size_t cell = 0; cell < cover_.size(); ++cell) bounds_.extend(cover_.box(cell));
+  if (!cover_.empty()) scene_ = std::make_unique<Scene>(cover_, bounds_);
 }
 
 Tracer::~Tracer() = default;

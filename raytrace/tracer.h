@@ -1,13 +1,12 @@
 // Rays against all cells of a surface cover, through an Embree hierarchy.
 #pragma once
 
-#include "blobtree/field.h"
+#include "blobtree/surface_cover.h"
 #include "raytrace/ray_root.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace cambium {
 
@@ -16,15 +15,15 @@ struct SurfaceHit {
   std::uint32_t cell = 0;   ///< index of the cell it was found in
 };
 
-/// Owns the cells. Thread safe: each thread brings its own Evaluator. Errors: std::runtime_error if Embree cannot start.
+/// Owns the cover. Thread safe: each thread brings its own Evaluator. Errors: std::runtime_error if Embree cannot start.
 class Tracer {
  public:
-  explicit Tracer(std::vector<PrunedField> cells);
+  explicit Tracer(SurfaceCover cover);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  const std::vector<PrunedField>& cells() const { return cells_; }
+  const SurfaceCover& cover() const { return cover_; }
   const Box& bounds() const { return bounds_; }   ///< of the cells
 
   /// The nearest surface point with t > 0 (t = 0 where the ray starts inside); solved in double, whatever Embree does in float.
@@ -34,7 +33,7 @@ class Tracer {
 
  private:
   struct Scene;
-  std::vector<PrunedField> cells_;
+  SurfaceCover cover_;
   Box bounds_;
   std::unique_ptr<Scene> scene_;
 };

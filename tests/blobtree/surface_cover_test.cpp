@@ -339,6 +339,12 @@ TEST(SurfaceCover, MemoryFollowsTheSurfaceAndNotTheVolume) {
   EXPECT_LT(bytes / cells, 64);
 }
 
+TEST(SurfaceCover, AStraightThinTwigNeedsFewCells) {
+  const SurfaceCover cover = cover_surface(field_of(Chain{{{{0, 0, 0}, 0.001}, {{0.3, 0.2, 0.1}, 0.001}}, 1}), {}, {}).value();
+  EXPECT_LT(cover.size(), 400u);
+  EXPECT_GT(cover.size(), 10u);
+}
+
 TEST(SurfaceCover, NeighboursShareTapes) {
   const SurfaceCover cover = cover_surface(trunk_and_twig(), constant(0.02), {}).value();
   EXPECT_GT(cover.size(), 10000u);

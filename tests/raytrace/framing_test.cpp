@@ -1,7 +1,10 @@
 #include "raytrace/framing.h"
 
+#include "tests/raytrace/scenes.h"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cambium {
@@ -66,6 +69,27 @@ TEST(Frame, ABoxToFrameReplacesTheTree) {
 
 TEST(Frame, OfNothingIsStillAView) {
   EXPECT_TRUE(std::isfinite(glm::length(frame({}, {}, 10, 10).eye)));
+}
+
+TEST(SurfaceBoxes, HoldTheSurfaceMoreTightlyThanTheCells) {
+  const Field field = scenes::forked();
+  const SurfaceCover cover = cover_surface(field, {}, {}).value();
+  const std::vector<Box> boxes = surface_boxes(cover);
+  ASSERT_FALSE(boxes.empty());
+  EXPECT_LE(boxes.size(), cover.size());
+  double cells = 0, tight = 0;
+  const auto volume = [](const Box& box) { return box.size().x * box.size().y * box.size().z; };
+  for (std::size_t i = 0; i < cover.size(); ++i) cells += volume(cover.box(i));
+  for (const Box& box : boxes) tight += volume(box);
+  EXPECT_LT(tight, 0.9 * cells);
+  for (int i = 0; i < 300; ++i) {   // from the axis outwards
+    Vec3 inside(0, 0, 0.05 + 0.9 * i / 300), outside = inside + Vec3(std::cos(i), std::sin(i), 0.1);
+    for (int k = 0; k < 60; ++k) {
+      const Vec3 middle = 0.5 * (inside + outside);
+      (field.value(middle) >= kIso ? inside : outside) = middle;
+    }
+    EXPECT_TRUE(std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return box.padded(1e-12).contains(inside); }));
+  }
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace cambium {
 namespace {
@@ -116,15 +118,21 @@ TEST(Render, StopsWhenCancelledAndReportsProgressUpwards) {
   std::atomic<bool> cancel{false};
   double last = 0;
   bool falls = false;
+  std::vector<std::string> stages;
   RunOptions run;
   run.cancel = &cancel;
-  run.progress = [&](std::string_view, double fraction) {
+  run.progress = [&](std::string_view stage, double fraction) {
+    if (stages.empty() || stages.back() != stage) {
+      stages.emplace_back(stage);
+      last = 0;
+    }
     falls |= fraction < last;
     last = fraction;
   };
   EXPECT_TRUE(render(field, small(), run));
   EXPECT_FALSE(falls);
   EXPECT_NEAR(last, 1, 1e-9);
+  EXPECT_EQ(stages, (std::vector<std::string>{"covering the surface", "render"}));
   run.progress = [&](std::string_view, double) { cancel = true; };
   EXPECT_FALSE(render(field, small(), run));
 }

@@ -1,6 +1,5 @@
 #include "raytrace/tracer.h"
 
-#include "raytrace/cover.h"
 #include "raytrace/hash.h"
 #include "tests/raytrace/scenes.h"
 
@@ -24,7 +23,7 @@ Ray random_ray(const Box& box, double distance, int i) {
 
 TEST(Tracer, FindsWhatDenseSamplingOfTheWholeFieldFinds) {
   const Field field = scenes::forked();
-  const Tracer tracer(*cover_for_tracing(field, {}, {}));
+  const Tracer tracer(*cover_surface(field, {}, {}));
   const PrunedField whole = field.prune(field.bounds());
   Evaluator evaluator;
   int hits = 0;
@@ -50,7 +49,7 @@ TEST(Tracer, FindsWhatDenseSamplingOfTheWholeFieldFinds) {
 
 TEST(Tracer, SeesAOneMillimetreTwigThirtyMetresAwayWithoutHoles) {
   const Field field = scenes::thin_twig();
-  const Tracer tracer(*cover_for_tracing(field, {}, {}));
+  const Tracer tracer(*cover_surface(field, {}, {}));
   Evaluator evaluator;
   const Vec3 eye(0, -25, 1.7), from(0.1, 0.2, 30.0), to(0.25, 0.3, 30.05);
   for (int i = 0; i <= 2000; ++i) {
@@ -64,7 +63,7 @@ TEST(Tracer, SeesAOneMillimetreTwigThirtyMetresAwayWithoutHoles) {
 TEST(Tracer, HasNoHolesBetweenCells) {
   // Every ray towards the axis hits, wherever cells meet.
   const Field field = scenes::trunk();
-  const Tracer tracer(*cover_for_tracing(field, {}, {}));
+  const Tracer tracer(*cover_surface(field, {}, {}));
   Evaluator evaluator;
   for (int i = 0; i < 4000; ++i) {
     const double angle = 2 * std::numbers::pi * unit_of(hash_of(1, i));
