@@ -1,7 +1,7 @@
 #include "blobtree/active_atoms.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 
 namespace cambium {
 namespace {
@@ -10,62 +10,150 @@ namespace {
 /// elsewhere finds.
 constexpr double kFar = kSupportPerRadius * (1 + 1e-9);
 
-/// Where more segments of one chain are active, the box is too large for one to hide another.
-constexpr std::size_t kMostCompared = 32;
+/// The ball around a box, a hair wider.
+Ball ball_around(const Box& box) {
+  const Ball ball = circumscribed_ball(box);
+  return {ball.center, ball.radius * (1 + 1e-9) + 1e-14 * glm::length(ball.center)};
+}
+
+Interval bounds_of(const CompiledTree& tree, const CompiledNode& node, const Ball& ball) {
+  return node.op == Op::kHalfSpace ? half_space_interval(tree.half_spaces[node.payload], ball)
+                                   : primitive_interval(tree.primitive_of(node), ball);
+}
+
+/// Appends atoms to one list, and forgets a chain's segments that others hide everywhere.
+class Listing {
+ public:
+  explicit Listing(ActiveAtoms& active) : active_(active) { active_.clear(); }
+  ~Listing() { drop_hidden(); }
+  Listing(const Listing&) = delete;
+  Listing& operator=(const Listing&) = delete;
+
+  void add(std::uint32_t atom, const Interval& bounds) {
+    if (chain_ != kNone) drop_hidden();
+    append(atom, bounds);
+  }
+  void add_segment(std::uint32_t atom, std::uint32_t chain, const Interval& ratio) {
+    if (chain != chain_) {
+      drop_hidden();
+      chain_ = chain;
+      begin_ = active_.size();
+      nearest_ = kInfinity;
+      farthest_ = 0;
+    }
+    nearest_ = std::min(nearest_, ratio.hi * (1 + 1e-9) + 1e-9);
+    farthest_ = std::max(farthest_, ratio.lo);
+    append(atom, ratio);
+  }
+
+ private:
+  void append(std::uint32_t atom, const Interval& bounds) {
+    active_.atoms.push_back(atom);
+    active_.bounds.push_back(bounds);
+  }
+  void drop_hidden() {
+    if (chain_ == kNone) return;
+    chain_ = kNone;
+    if (!(farthest_ > nearest_)) return;
+    std::size_t kept = begin_;
+    for (std::size_t i = begin_; i < active_.size(); ++i) {
+      active_.atoms[kept] = active_.atoms[i];
+      active_.bounds[kept] = active_.bounds[i];
+      kept += active_.bounds[i].lo <= nearest_;
+    }
+    active_.atoms.resize(kept);
+    active_.bounds.resize(kept);
+  }
+
+  ActiveAtoms& active_;
+  std::uint32_t chain_ = kNone;   // whose segments are being listed,
+  std::size_t begin_ = 0;         // where they begin,
+  double nearest_ = kInfinity;    // what the nearest one's distance stays below everywhere in the box,
+  double farthest_ = 0;           // and the most that one's distance stays above
+};
+
+/// On which sides of a plane an interval is.
+struct Sides {
+  float low_end, high_begin;   ///< the halves reach this far: the same plane, rounded outwards
+  std::uint8_t low_bits, high_bits;
+  std::uint8_t of(float lo, float hi) const {
+    return static_cast<std::uint8_t>((lo <= low_end ? low_bits : 0) | (hi >= high_begin ? high_bits : 0));
+  }
+};
 
 }  // namespace
 
-void append_active(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& box,
-                   std::vector<std::uint32_t>& active) {
+void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& box, ActiveAtoms& active) {
+  Listing list(active);
   const FloatBox reach(box);
-  const Ball ball = circumscribed_ball(box);
+  const Ball ball = ball_around(box);
   const bool bounded = ball.radius < kInfinity;
-  const double hair = bounded ? 1e-9 * ball.radius + 1e-14 * glm::length(ball.center) : 0.0;
-  std::uint32_t chain = kNone;       // the chain whose segments are being listed,
-  std::size_t chain_begin = 0;       // where they begin in `active`,
-  double nearest = kInfinity;        // the distance that its nearest segment stays below everywhere in the box,
-  std::array<double, kMostCompared> least;   // and what each segment's distance stays above
-  const auto drop_hidden = [&] {
-    const std::size_t count = active.size() - chain_begin;
-    if (chain == kNone || count < 2 || count > kMostCompared) return;
-    std::size_t kept = chain_begin;
-    for (std::size_t i = 0; i < count; ++i) {
-      active[kept] = active[chain_begin + i];
-      kept += least[i] <= nearest;
-    }
-    active.resize(kept);
-  };
   for (const std::uint32_t atom : candidates) {
-    const Atom& a = tree.atoms[atom];
-    if (a.node != chain) {
-      drop_hidden();
-      chain = kNone;
-    }
     if (!tree.bounds_of_atoms[atom].intersects(reach)) continue;
-    const CompiledNode& node = tree.nodes[a.node];
+    const std::uint32_t id = tree.atoms[atom].node;
+    const CompiledNode& node = tree.nodes[id];
     if (!bounded || node.warp != kNone) {
-      active.push_back(atom);
-      continue;
+      list.add(atom, {});
+    } else if (node.op == Op::kChain) {
+      const Interval x = swept_ratio_interval(tree.segment_of(atom), ball);
+      if (x.lo < kFar) list.add_segment(atom, id, x);
+    } else {
+      const Interval f = bounds_of(tree, node, ball);
+      if (f.lo != 0 || f.hi != 0) list.add(atom, f);
     }
-    const Ball wide{ball.center, ball.radius + hair};
-    if (node.op != Op::kChain) {
-      const Interval f = node.op == Op::kHalfSpace ? half_space_interval(tree.half_spaces[node.payload], wide)
-                                                   : primitive_interval(tree.primitive_of(node), wide);
-      if (f.lo != 0 || f.hi != 0) active.push_back(atom);
-      continue;
-    }
-    const Interval x = swept_ratio_interval(tree.segment_of(atom), wide);
-    if (!(x.lo < kFar)) continue;
-    if (chain == kNone) {
-      chain = a.node;
-      chain_begin = active.size();
-      nearest = kInfinity;
-    }
-    nearest = std::min(nearest, x.hi * (1 + 1e-9) + 1e-9);
-    if (active.size() - chain_begin < kMostCompared) least[active.size() - chain_begin] = x.lo;
-    active.push_back(atom);
   }
-  drop_hidden();
+}
+
+void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& cube,
+                          std::array<ActiveAtoms, kChildren>& children) {
+  // Children are halves; what they are centred at and how far they reach.
+  const Vec3 middle = cube.center(), quarter = 0.25 * cube.size();
+  ChildCenters centers;
+  std::array<Ball, kChildren> balls;
+  for (std::size_t k = 0; k < kChildren; ++k) {
+    for (int a = 0; a < 3; ++a) balls[k].center[a] = centers[a][k] = middle[a] + (k >> a & 1 ? quarter[a] : -quarter[a]);
+  }
+  const double radius = glm::length(quarter) * (1 + 1e-9) + 1e-14 * (glm::length(middle) + glm::length(quarter));
+  for (Ball& ball : balls) ball.radius = radius;
+  const FloatBox reach(cube), plane(Box{middle, middle});
+  const Sides x{plane.hi.x, plane.lo.x, 0x55, 0xaa}, y{plane.hi.y, plane.lo.y, 0x33, 0xcc}, z{plane.hi.z, plane.lo.z, 0x0f, 0xf0};
+
+  std::array<Listing, kChildren> lists{Listing(children[0]), Listing(children[1]), Listing(children[2]), Listing(children[3]),
+                                       Listing(children[4]), Listing(children[5]), Listing(children[6]), Listing(children[7])};
+  constexpr std::size_t kBlock = 64;   // of segments whose bounds are found in one go
+  segments_.resize(kBlock);
+  bounds_.resize(kBlock);
+  std::array<std::uint8_t, kBlock> touched;
+  for (std::size_t begin = 0; begin < candidates.size(); begin += kBlock) {
+    const std::span<const std::uint32_t> block = candidates.subspan(begin, std::min(kBlock, candidates.size() - begin));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      const FloatBox& box = tree.bounds_of_atoms[block[i]];
+      touched[i] = box.intersects(reach) ? x.of(box.lo.x, box.hi.x) & y.of(box.lo.y, box.hi.y) & z.of(box.lo.z, box.hi.z) : 0;
+      const CompiledNode& node = tree.nodes[tree.atoms[block[i]].node];
+      if (touched[i] != 0 && node.op == Op::kChain && node.warp == kNone) segments_[count++] = tree.segment_of(block[i]);
+    }
+    bound_swept_ratios(segments_.data(), count, centers, radius, bounds_.data());
+    const ChildBounds* ratio = bounds_.data();
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (touched[i] == 0) continue;
+      const std::uint32_t atom = block[i], id = tree.atoms[atom].node;
+      const CompiledNode& node = tree.nodes[id];
+      const bool warped = node.warp != kNone, segment = !warped && node.op == Op::kChain;
+      for (unsigned bits = touched[i]; bits != 0; bits &= bits - 1) {
+        const auto k = static_cast<std::size_t>(std::countr_zero(bits));
+        if (segment) {
+          if (ratio->lo[k] < kFar) lists[k].add_segment(atom, id, {ratio->lo[k], ratio->hi[k]});
+        } else if (warped) {
+          lists[k].add(atom, {});
+        } else {
+          const Interval f = bounds_of(tree, node, balls[k]);
+          if (f.lo != 0 || f.hi != 0) lists[k].add(atom, f);
+        }
+      }
+      ratio += segment;
+    }
+  }
 }
 
 }  // namespace cambium

@@ -2,14 +2,13 @@
 
 #include "blobtree/active_atoms.h"
 #include "blobtree/progress_meter.h"
-#include "blobtree/tape.h"
+#include "blobtree/tape_interval.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -29,8 +28,6 @@ CellPlace child_of(const CellPlace& place, int level, int child) {
   return c;
 }
 
-std::size_t grown_to(std::size_t size) { return size <= 4096 ? 4096 : std::bit_ceil(size); }
-
 }  // namespace
 
 class CellSearch {
@@ -45,21 +42,25 @@ class CellSearch {
   void search() {
     std::vector<std::uint32_t> all(tree_.atoms.size());
     std::iota(all.begin(), all.end(), 0u);
-    const Box root = grid_.box({0, 0, 0}, grid_.levels);
-    std::vector<std::uint32_t> active;
-    append_active(tree_, all, root, active);
+    ActiveAtoms active;
+    find_active(tree_, all, grid_.box({0, 0, 0}, grid_.levels), active);
     all = {};
     shared_region({0, 0, 0}, grid_.levels, std::move(active), 1.0);
   }
 
  private:
+  using Children = std::array<ActiveAtoms, kChildren>;
+
   struct Scratch {
-    explicit Scratch(const CompiledTree& tree) : builders(kMostLevels + 1, TapeBuilder(tree)), tapes(kMostLevels + 1) {}
+    explicit Scratch(const CompiledTree& tree)
+        : builders(kMostLevels + 1, TapeBuilder(tree)), tapes(kMostLevels + 1), children(kMostLevels + 1) {}
     std::vector<TapeBuilder> builders;              // the tape of the region that is being looked at on each level
     std::vector<const Tape*> tapes;
     std::array<std::uint64_t, kMostLevels + 1> serials{};
     std::uint64_t last_serial = 0;
-    std::vector<std::uint32_t> atoms;               // lists of the regions being looked at, one after another
+    std::vector<Children> children;                 // of the region that is being looked at on each level
+    ChildSplitter splitter;
+    TapeScratch<Interval> intervals;
     Evaluator evaluator;
   };
 
@@ -80,45 +81,43 @@ class CellSearch {
 
   bool holds_wanted(const Interval& f) const { return wanted_ == Wanted::kSurface ? f.contains(kIso) : f.hi > 0; }
 
-  /// Makes the tape of a region and asks what it can hold.
-  bool can_hold(Scratch& s, std::span<const std::uint32_t> atoms, const Box& box, int level, int& tape_level) const {
+  /// Makes the tape of a region, unless tape_level tells whose it shares, and asks what it can hold.
+  bool can_hold(Scratch& s, const ActiveAtoms& active, const Box& box, int level, int& tape_level) const {
     if (tape_level < 0) {
-      s.tapes[level] = &s.builders[level].build(atoms);
+      s.tapes[level] = &s.builders[level].build(active.atoms);
       s.serials[level] = ++s.last_serial;
       tape_level = level;
     }
-    const PrunedField field(tree_, *s.tapes[tape_level], nullptr, box);
-    return !field.empty() && holds_wanted(s.evaluator.interval(field, box));
+    const Tape& tape = *s.tapes[tape_level];
+    if (tape.empty()) return false;
+    const Ball ball = circumscribed_ball(box);
+    const Interval f = tape.frames.empty() ? tape_interval(tree_, tape, active, ball, s.intervals)
+                                           : s.evaluator.interval(PrunedField(tree_, tape, nullptr, box), ball);
+    return holds_wanted(f);
   }
 
   // share: this region's part of the whole work, for progress.
-  void shared_region(const CellPlace& place, int level, std::vector<std::uint32_t> atoms, double share) {
+  void shared_region(const CellPlace& place, int level, ActiveAtoms active, double share) {
     if (stopped()) return;
-    if (atoms.empty()) return tell(share);
-    const int levels_below = height(level, atoms.size(), smallest_radius(atoms));
-    if (levels_below == 0 || (atoms.size() <= kAtomsWorthSharing && levels_below <= rule_.task_height)) {
+    if (active.empty()) return tell(share);
+    const int levels_below = height(level, active.size(), smallest_radius(active.atoms));
+    if (levels_below == 0 || (active.size() <= kAtomsWorthSharing && levels_below <= rule_.task_height)) {
       const std::unique_ptr<CellRun> run = make_run_();
-      Scratch& s = scratches_.local();
-      s.atoms = std::move(atoms);
-      region(s, *run, place, level, 0, s.atoms.size(), -1);
+      region(scratches_.local(), *run, place, level, active, -1);
       return tell(share);
     }
-    if (atoms.size() <= kAtomsWorthBounding) {
+    const Box cube = grid_.box(place, level);
+    Children lists;
+    {
+      Scratch& s = scratches_.local();   // not in use by this thread: nothing below waits for other tasks
       int tape_level = -1;
-      if (!can_hold(scratches_.local(), atoms, grid_.box(place, level), level, tape_level)) return tell(share);
+      if (active.size() <= kAtomsWorthBounding && !can_hold(s, active, cube, level, tape_level)) return tell(share);
+      if (active.size() <= kAtomsWorthSharing) s.splitter.split(tree_, active.atoms, cube, lists);
     }
-    std::array<std::vector<std::uint32_t>, 8> lists;
-    const auto narrow = [&](int child) {
-      append_active(tree_, atoms, grid_.box(child_of(place, level, child), level - 1), lists[child]);
-    };
-    if (atoms.size() > kAtomsWorthSharing) {
-      tbb::parallel_for(0, 8, narrow);
-    } else {
-      for (int child = 0; child < 8; ++child) narrow(child);
-    }
-    atoms = {};
+    if (active.size() > kAtomsWorthSharing) split_in_parallel(active.atoms, cube, lists);
+    active = {};
     std::size_t total = 0;
-    for (const auto& list : lists) total += list.size();
+    for (const ActiveAtoms& list : lists) total += list.size();
     if (total == 0) return tell(share);
     tbb::parallel_for(0, 8, [&](int child) {
       const double part = share * static_cast<double>(lists[child].size()) / static_cast<double>(total);
@@ -126,30 +125,46 @@ class CellSearch {
     });
   }
 
+  void split_in_parallel(std::span<const std::uint32_t> atoms, const Box& cube, Children& lists) const {
+    const std::size_t parts = (atoms.size() + kAtomsWorthSharing - 1) / kAtomsWorthSharing;
+    std::vector<Children> found(parts);
+    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t i) {
+      ChildSplitter splitter;
+      const std::size_t begin = i * kAtomsWorthSharing;
+      splitter.split(tree_, atoms.subspan(begin, std::min(kAtomsWorthSharing, atoms.size() - begin)), cube, found[i]);
+    });
+    tbb::parallel_for(std::size_t{0}, kChildren, [&](std::size_t k) {
+      std::size_t total = 0;
+      for (const Children& part : found) total += part[k].size();
+      lists[k].atoms.reserve(total);
+      lists[k].bounds.reserve(total);
+      for (const Children& part : found) {
+        lists[k].atoms.insert(lists[k].atoms.end(), part[k].atoms.begin(), part[k].atoms.end());
+        lists[k].bounds.insert(lists[k].bounds.end(), part[k].bounds.begin(), part[k].bounds.end());
+      }
+    });
+  }
+
   /// Depth is at most kMostLevels. tape_level: whose tape is also that of these atoms; -1 if there is none yet.
-  void region(Scratch& s, CellRun& run, const CellPlace& place, int level, std::size_t first, std::size_t end, int tape_level) {
-    if (first == end || stopped()) return;
+  void region(Scratch& s, CellRun& run, const CellPlace& place, int level, const ActiveAtoms& active, int tape_level) {
+    if (stopped()) return;
     const Box box = grid_.box(place, level);
-    const std::size_t count = end - first;
-    s.atoms.reserve(grown_to(end + count));   // so that children can be appended while this list is read
-    const std::span<const std::uint32_t> atoms = std::span<const std::uint32_t>(s.atoms).subspan(first, count);
-    const bool few = count <= kAtomsWorthBounding;
-    bool leaf = !few && height(level, count, smallest_radius(atoms)) == 0;
+    const bool few = active.size() <= kAtomsWorthBounding;
+    bool leaf = level == 0 || (!few && height(level, active.size(), smallest_radius(active.atoms)) == 0);
     if (few || leaf) {
-      if (!can_hold(s, atoms, box, level, tape_level)) return;
+      if (!can_hold(s, active, box, level, tape_level)) return;
       const Tape& tape = *s.tapes[tape_level];
-      leaf = leaf || height(level, count, tape.smallest_radius) == 0;
+      leaf = leaf || height(level, active.size(), tape.smallest_radius) == 0;
       if (leaf) {
         run.found(s.evaluator, {place, level, box, PrunedField(tree_, tape, nullptr, box), tape_level, s.serials[tape_level]});
         return;
       }
     }
+    Children& children = s.children[level];
+    s.splitter.split(tree_, active.atoms, box, children);
     for (int child = 0; child < 8; ++child) {
-      const CellPlace at = child_of(place, level, child);
-      append_active(tree_, std::span<const std::uint32_t>(s.atoms).subspan(first, count), grid_.box(at, level - 1), s.atoms);
-      const bool same = s.atoms.size() - end == count;
-      region(s, run, at, level - 1, end, s.atoms.size(), same ? tape_level : -1);
-      s.atoms.resize(end);
+      const ActiveAtoms& list = children[child];
+      if (!list.empty()) region(s, run, child_of(place, level, child), level - 1, list, list.size() == active.size() ? tape_level : -1);
     }
   }
 

@@ -1,5 +1,6 @@
 // Point queries: value, gradient, interval, contributions and traits. Batches are in batch.cpp.
 #include "blobtree/evaluator_scratch.h"
+#include "blobtree/tape_interval.h"
 
 #include <cmath>
 #include <numbers>
@@ -25,9 +26,7 @@ class BallPolicy {
       const Interval s = swept_ratio_interval(shapes_.segments()[i], balls_[in.frame].ball);
       x = {std::min(x.lo, s.lo), std::min(x.hi, s.hi)};
     }
-    // Closed forms above round; a value must never escape by a bit.
-    return falloff_interval(x.lo * kRadiusPerSupport * (1 - 1e-13), x.hi * kRadiusPerSupport * (1 + 1e-13),
-                            view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
+    return chain_interval(x, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
   }
   Interval lateral_weight(const Lateral& lateral, const Instruction& in) const {
     return lateral_contact_weight_interval(lateral, balls_[in.frame].ball);
@@ -101,13 +100,11 @@ Interval Evaluator::Scratch::interval(const CompiledTree& tree, const Tape& tape
   const TapeView tape_view = view(tree, tape);
   shapes.gather(tree, tape);
   balls.resize(tape_view.frame_count());
-  // A hair wider, and so is the result: bounds and values round differently.
+  // Bounds and values round differently: a hair wider.
   balls[0] = {{ball.center, ball.radius * (1 + 1e-12) + 1e-15 * glm::length(ball.center)}, true};
   for (std::size_t k = 1; k < balls.size(); ++k) balls[k] = unwarp(tape_view.warp_of(k), balls[tape_view.outside_of(k)].ball);
   BallPolicy policy(tape_view, balls, shapes);
-  const Interval f = run_tape(tape_view, policy, intervals);
-  constexpr double kRounding = 1e-13;
-  return {f.lo - kRounding * std::abs(f.lo), f.hi + kRounding * std::abs(f.hi)};
+  return a_hair_wider(run_tape(tape_view, policy, intervals));
 }
 
 void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vector<Contribution>& out) {

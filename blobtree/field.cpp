@@ -38,16 +38,12 @@ Box Field::atom_bounds(std::uint32_t atom) const { return tree_->bounds_of(atom)
 
 std::size_t Field::memory_bytes() const { return tree_->memory_bytes(); }
 
-ActiveSet Field::active(const Box& box) const {
-  ActiveSet set;
-  append_active(*tree_, tree_->index.query(tree_->bounds_of_atoms, FloatBox(box)), box, set.atoms);
-  return set;
-}
+ActiveSet Field::active(const Box& box) const { return narrow({tree_->index.query(tree_->bounds_of_atoms, FloatBox(box))}, box); }
 
 ActiveSet Field::narrow(const ActiveSet& from, const Box& box) const {
-  ActiveSet set;
-  append_active(*tree_, from.atoms, box, set.atoms);
-  return set;
+  ActiveAtoms active;
+  find_active(*tree_, from.atoms, box, active);
+  return {std::move(active.atoms)};
 }
 
 PrunedField Field::prune(const ActiveSet& active, const Box& box) const {

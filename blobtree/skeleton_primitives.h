@@ -178,7 +178,7 @@ inline Interval swept_ratio_interval(const SweptSegment<double>& k, const Ball& 
       lo = std::max(lo, best == unclamped ? x : (glm::length(q - best * k.axis) - rho) / k.radius_at(best));
     }
   }
-  return {std::max(0.0, lo), hi};
+  return {std::min(at_center, std::max(0.0, lo)), hi};
 }
 
 }  // namespace cambium
