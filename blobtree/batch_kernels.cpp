@@ -28,6 +28,13 @@ struct Weights {
   HWY_INLINE N operator[](std::size_t k) const;
 };
 
+/// The points of a chunk in one frame.
+template <class T>
+struct Points {
+  T *x, *y, *z;
+  HWY_INLINE LaneVector<T> get(std::size_t i) const { return {load(x + i), load(y + i), load(z + i)}; }
+};
+
 #define CAMBIUM_RULE_ATTRIBUTES HWY_ATTR
 #include "blobtree/operator_rules-inl.h"
 #undef CAMBIUM_RULE_ATTRIBUTES
@@ -53,7 +60,7 @@ class BatchRun {
     const std::size_t fitting = kCacheBytes / (sizeof(T) * arrays) / kPadding * kPadding;
     capacity_ = std::clamp(fitting, kPadding, kLargestChunk);
     capacity_ = std::min(capacity_, (batch.n + kPadding - 1) / kPadding * kPadding);
-    stride_ = capacity_ + kPadding;   // a whole number of pages would make loads wait for stores to other arrays
+    stride_ = capacity_ + 64;
     points_ = memory.at_least<T>(arrays * stride_);
     slots_ = points_ + 3 * program.frames.size() * stride_;
   }
@@ -62,17 +69,10 @@ class BatchRun {
     for (std::size_t begin = 0; begin < batch_.n; begin += capacity_) {
       const std::size_t count = std::min(capacity_, batch_.n - begin);
       n_ = (count + lane_count<T>() - 1) / lane_count<T>() * lane_count<T>();
-      take(batch_.x + begin, count, points_);
-      take(batch_.y + begin, count, points_ + stride_);
-      take(batch_.z + begin, count, points_ + 2 * stride_);
+      take(begin, count);
       for (std::size_t k = 1; k < program_.frames.size(); ++k) enter_frame(k);
       for (const Step& step : program_.steps) run_step(step);
-      give(slots_, count, batch_.f + begin);
-      if constexpr (kGradient) {
-        give(slots_ + stride_, count, batch_.gx + begin);
-        give(slots_ + 2 * stride_, count, batch_.gy + begin);
-        give(slots_ + 3 * stride_, count, batch_.gz + begin);
-      }
+      give(begin, count);
     }
   }
 
@@ -82,21 +82,27 @@ class BatchRun {
   static constexpr std::size_t kLargestChunk = 256;    // 64 and 512 are up to 10 % slower
   static constexpr std::size_t kCacheBytes = 24 * 1024;
 
-  /// Ends that fill no vector repeat the last point.
-  void take(const float* from, std::size_t count, T* to) const {
+  /// The points of a chunk; a last vector that they do not fill repeats the last one.
+  void take(std::size_t begin, std::size_t count) const {
+    const float* const from[3] = {batch_.x + begin, batch_.y + begin, batch_.z + begin};
     std::size_t i = 0;
-    for (; i < count; ++i) to[i] = static_cast<T>(from[i]);
-    for (; i < n_; ++i) to[i] = to[count - 1];
+    for (; i + lane_count<T>() <= count; i += lane_count<T>())
+      for (int k = 0; k < 3; ++k) store(load_floats<T>(from[k] + i), axis(0, k) + i);
+    for (; i < n_; ++i)
+      for (int k = 0; k < 3; ++k) axis(0, k)[i] = static_cast<T>(from[k][std::min(i, count - 1)]);
   }
-  static void give(const T* from, std::size_t count, float* to) {
-    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]);
+  void give(std::size_t begin, std::size_t count) const {
+    float* const to[4] = {batch_.f + begin, batch_.gx + begin, batch_.gy + begin, batch_.gz + begin};
+    constexpr int kArrays = static_cast<int>(Slot<N>::kArrays);
+    std::size_t i = 0;
+    for (; i + lane_count<T>() <= count; i += lane_count<T>())
+      for (int k = 0; k < kArrays; ++k) store_floats(load(slots_ + k * stride_ + i), to[k] + i);
+    for (; i < count; ++i)
+      for (int k = 0; k < kArrays; ++k) to[k][i] = static_cast<float>(slots_[k * stride_ + i]);
   }
 
   T* axis(std::size_t frame, int k) const { return points_ + (3 * frame + static_cast<std::size_t>(k)) * stride_; }
-  HWY_INLINE LaneVector<T> point(std::size_t frame, std::size_t i) const {
-    const T* const x = points_ + 3 * frame * stride_ + i;
-    return {load(x), load(x + stride_), load(x + 2 * stride_)};
-  }
+  Points<T> points(std::size_t frame) const { return {axis(frame, 0), axis(frame, 1), axis(frame, 2)}; }
   HWY_INLINE Slot<N> slot(std::size_t k) const { return {slots_ + k * Slot<N>::kArrays * stride_, stride_}; }
   Vec3 absolute(std::size_t frame, std::size_t i) const {
     return program_.frames[frame].origin + Vec3(axis(frame, 0)[i], axis(frame, 1)[i], axis(frame, 2)[i]);
@@ -106,11 +112,13 @@ class BatchRun {
     const LocalFrame<T>& frame = program_.frames[k];
     if (frame.linear) {
       const LaneVector<T> x = broadcast(frame.matrix[0]), y = broadcast(frame.matrix[1]), z = broadcast(frame.matrix[2]);
-      for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
-        const LaneVector<T> p = point(frame.outside, i);
-        store(dot(x, p), axis(k, 0) + i);
-        store(dot(y, p), axis(k, 1) + i);
-        store(dot(z, p), axis(k, 2) + i);
+      const Points<T> outside = points(frame.outside), inside = points(k);
+      const std::size_t n = n_;
+      for (std::size_t i = 0; i < n; i += lane_count<T>()) {
+        const LaneVector<T> p = outside.get(i);
+        store(dot(x, p), inside.x + i);
+        store(dot(y, p), inside.y + i);
+        store(dot(z, p), inside.z + i);
       }
       return;
     }
@@ -127,7 +135,8 @@ class BatchRun {
       const Slot<N> to = slot(step.slot);
       if (frame.linear) {
         const LaneVector<T> x = broadcast(frame.matrix[0]), y = broadcast(frame.matrix[1]), z = broadcast(frame.matrix[2]);
-        for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
+        const std::size_t n = n_;
+        for (std::size_t i = 0; i < n; i += lane_count<T>()) {
           const N in = to.get(i);
           to.put(i, with_gradient<N>(in.f, in.x * x + in.y * y + in.z * z));
         }
@@ -141,44 +150,59 @@ class BatchRun {
     }
   }
 
-  HWY_INLINE static void finish(const Slot<N>& to, std::size_t i, bool adds, const N& value) {
-    to.put(i, adds ? to.get(i) + value : value);
+  // Loops keep what they need in locals: a store to a slot could be one to a member, for all the compiler knows.
+
+  /// slot = end(begin(i)), or slot += end(begin(i)), for all lanes, each begun a vector ahead.
+  template <class Begin, class End>
+  HWY_INLINE void set(const Step& step, const Begin& begin, const End& end) const {
+    const Slot<N> to = slot(step.slot);
+    const std::size_t n = n_, last = n_ - lane_count<T>();
+    auto ahead = begin(std::size_t{0});
+    if (step.adds)
+      for (std::size_t i = 0; i < n; i += lane_count<T>()) {
+        const auto now = ahead;
+        ahead = begin(std::min(i + lane_count<T>(), last));
+        to.put(i, to.get(i) + end(now));
+      }
+    else
+      for (std::size_t i = 0; i < n; i += lane_count<T>()) {
+        const auto now = ahead;
+        ahead = begin(std::min(i + lane_count<T>(), last));
+        to.put(i, end(now));
+      }
+  }
+
+  /// strength (1 - x^2)^3, with the gradient that follows from that of a multiple of x^2.
+  static HWY_INLINE N falloff_lanes(Lanes<T> x2, Lanes<T> strength, Lanes<T> slope, const LaneVector<T>& direction) {
+    const Lanes<T> s = larger(Lanes<T>(1) - x2, Lanes<T>(0)), s2 = s * s;
+    return with_gradient<N>(s2 * (s * strength), (s2 * slope) * direction);
   }
 
   template <class Shape, class Local>
   HWY_NOINLINE void primitive(const Step& step, const Local& local) const {
     const Shape shape(local);
-    const Slot<N> to = slot(step.slot);
-    const Lanes<T> per_support(local.falloff.inverse_square_support), strength(local.falloff.strength);
-    const Lanes<T> slope = Lanes<T>(-6) * strength * per_support;
-    for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
-      const Offset<T> o = shape.template offset<kGradient>(point(step.frame, i));
-      const Lanes<T> s = larger(Lanes<T>(1) - o.square * per_support, Lanes<T>(0)), s2 = s * s;
-      if constexpr (kGradient) {
-        finish(to, i, step.adds, with_gradient<N>(s2 * (s * strength), (s2 * slope) * o.vector));
-      } else {
-        finish(to, i, step.adds, s2 * (s * strength));
-      }
-    }
+    const Points<T> at = points(step.frame);
+    const Lanes<T> per_square(local.falloff.per_square), strength(local.falloff.strength), slope(local.falloff.slope);
+    const auto begin = [&](std::size_t i) HWY_ATTR { return shape.template begin<kGradient>(at.get(i)); };
+    set(step, begin, [&](const typename Shape::Begun& begun) HWY_ATTR {
+      const Offset<T> o = shape.template end<kGradient>(begun);
+      return falloff_lanes(Shape::kInSupportRadii ? o.square : o.square * per_square, strength, slope, o.vector);
+    });
   }
 
   HWY_NOINLINE void chain(const Step& step) const {
     const LocalSwept<T>* const segments = program_.swept.data() + step.first;
-    const Slot<N> to = slot(step.slot);
+    const std::uint32_t count = step.count;
+    const Points<T> at = points(step.frame);
     constexpr T kPerSupport = static_cast<T>(kRadiusPerSupport * kRadiusPerSupport);
-    const Lanes<T> strength(step.width), slope = Lanes<T>(-6 * kPerSupport) * strength;
-    for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
-      const LaneVector<T> p = point(step.frame, i);
+    const Lanes<T> per_support(kPerSupport), strength(step.width), slope = Lanes<T>(-6 * kPerSupport) * strength;
+    const auto begin = [&](std::size_t i) HWY_ATTR { return at.get(i); };
+    set(step, begin, [&](const LaneVector<T>& p) HWY_ATTR {
       SweptNearest<T> best = swept<T, kGradient>(segments[0], p);
-      for (std::uint32_t k = 1; k < step.count; ++k) best = nearer<T, kGradient>(best, swept<T, kGradient>(segments[k], p));
-      const Lanes<T> x2 = best.square / best.radius_square;
-      const Lanes<T> s = larger(Lanes<T>(1) - x2 * Lanes<T>(kPerSupport), Lanes<T>(0)), s2 = s * s;
-      if constexpr (kGradient) {
-        finish(to, i, step.adds, with_gradient<N>(s2 * (s * strength), (s2 * slope / best.radius_square) * best.vector));
-      } else {
-        finish(to, i, step.adds, s2 * (s * strength));
-      }
-    }
+      for (std::uint32_t k = 1; k < count; ++k) best = nearer<T, kGradient>(best, swept<T, kGradient>(segments[k], p));
+      const Lanes<T> x2 = best.square / best.radius_square * per_support;
+      return falloff_lanes(x2, strength, kGradient ? slope / best.radius_square : slope, best.vector);
+    });
   }
 
   void half_space(const Step& step) const {
@@ -186,19 +210,21 @@ class BatchRun {
     const LaneVector<T> on_plane = broadcast(k.point), normal = broadcast(k.normal);
     const Lanes<T> per_two_widths(k.inverse_two_widths);
     const LaneVector<T> slope = (Lanes<T>(0) - per_two_widths) * normal;
-    const Slot<N> to = slot(step.slot);
-    for (std::size_t i = 0; i < n_; i += lane_count<T>()) {
-      const Lanes<T> t = Lanes<T>(0.5) - dot(point(step.frame, i) - on_plane, normal) * per_two_widths;
+    const Points<T> at = points(step.frame);
+    const auto begin = [&](std::size_t i) HWY_ATTR { return at.get(i); };
+    set(step, begin, [&](const LaneVector<T>& p) HWY_ATTR {
+      const Lanes<T> t = Lanes<T>(0.5) - dot(p - on_plane, normal) * per_two_widths;
       const N ramp = select(t < Lanes<T>(1), with_gradient<N>(t, slope), N(1));
-      finish(to, i, step.adds, select(t > Lanes<T>(0), ramp, N(0)));
-    }
+      return select(t > Lanes<T>(0), ramp, N(0));
+    });
   }
 
   /// slot = rule(its children), for all lanes.
   template <class Rule>
   HWY_INLINE void combine(const Step& step, const Rule& rule) const {
     const Slot<N> to = slot(step.slot);
-    for (std::size_t i = 0; i < n_; i += lane_count<T>()) to.put(i, rule(Operands<N>{to, i}, i));
+    const std::size_t n = n_;
+    for (std::size_t i = 0; i < n; i += lane_count<T>()) to.put(i, rule(Operands<N>{to, i}));
   }
 
   void run_step(const Step& step) {
@@ -212,35 +238,35 @@ class BatchRun {
       case StepKind::kBox: primitive<BoxLanes<T>>(step, program_.boxes[step.first]); break;
       case StepKind::kHalfSpace: half_space(step); break;
       case StepKind::kChain: chain(step); break;
-      case StepKind::kAdd: combine(step, [](const Operands<N>& f, std::size_t) HWY_ATTR { return f[0] + f[1]; }); break;
+      case StepKind::kAdd: combine(step, [](const Operands<N>& f) HWY_ATTR { return f[0] + f[1]; }); break;
       case StepKind::kUnion:
-        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return max_of(f, n, step.with_zero); });
+        combine(step, [&](const Operands<N>& f) HWY_ATTR { return max_of(f, n, step.with_zero); });
         break;
       case StepKind::kIntersection:
-        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return min_of(f, n, step.with_zero); });
+        combine(step, [&](const Operands<N>& f) HWY_ATTR { return min_of(f, n, step.with_zero); });
         break;
       case StepKind::kDifference:
-        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR {
+        combine(step, [&](const Operands<N>& f) HWY_ATTR {
           return difference_of(step.has_first ? f[0] : N(0), f + step.has_first, n - step.has_first, step.with_zero);
         });
         break;
       case StepKind::kRicci:
-        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return ricci_of(f, n, step.width); });
+        combine(step, [&](const Operands<N>& f) HWY_ATTR { return ricci_of(f, n, step.width); });
         break;
       case StepKind::kContact:
-        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR {
+        combine(step, [&](const Operands<N>& f) HWY_ATTR {
           return contact_of(f, n, step.with_zero, step.width, step.lip);
         });
         break;
       case StepKind::kFork:
-        combine(step, [&](const Operands<N>& f, std::size_t i) HWY_ATTR {
-          const Weights<N> weights{program_.laterals.data() + step.first, point(step.frame, i)};
+        combine(step, [&](const Operands<N>& f) HWY_ATTR {
+          const Weights<N> weights{program_.laterals.data() + step.first, points(step.frame).get(f.i)};
           return fork_of(step.has_first ? f[0] : N(0), f + step.has_first, weights, n - step.has_first, step.with_zero, step.width,
                          step.lip);
         });
         break;
       case StepKind::kScale:
-        combine(step, [&](const Operands<N>& f, std::size_t) HWY_ATTR { return f[0] * Lanes<T>(step.width); });
+        combine(step, [&](const Operands<N>& f) HWY_ATTR { return f[0] * Lanes<T>(step.width); });
         break;
       case StepKind::kWarp: leave_frame(step); break;
     }

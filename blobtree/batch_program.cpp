@@ -33,8 +33,8 @@ class ShapePlacer {
   double largest_ratio() const { return largest_ratio_; }
 
   void place(const CompiledPrimitive& p, Step& step) {
-    falloff_ = {static_cast<T>(p.inverse_support * p.inverse_support), static_cast<T>(p.strength)};
-    scale_ = p.inverse_support * std::max(1.0, std::abs(p.strength));
+    per_support_ = p.inverse_support;
+    strength_ = p.strength;
     std::visit([&](const auto& shape) { add(shape, step); }, p.shape);
   }
 
@@ -83,18 +83,23 @@ class ShapePlacer {
   }
   void note(double ratio) { largest_ratio_ = std::max(largest_ratio_, ratio); }
 
+  /// Of distances in units of `unit` metres.
+  LocalFalloff<T> falloff(double unit) const {
+    const double per_unit = per_support_ * unit;
+    return {static_cast<T>(per_unit * per_unit), static_cast<T>(strength_), static_cast<T>(-6 * strength_ * per_unit * per_unit)};
+  }
   /// Notes a shape that is measured from `anchor`, and gives its kind and place to the step.
   void begin(Step& step, StepKind kind, std::uint32_t at, const Vec3& anchor) {
     step.kind = kind;
     step.first = at;
-    note((reach_ + glm::length(anchor)) * scale_);
+    note((reach_ + glm::length(anchor)) * per_support_ * std::max(1.0, std::abs(strength_)));
   }
 
   void add(const PointSkeleton<double>& k, Step& step) {
     begin(step, StepKind::kPoint, index(out_.points), k.center - origin_);
     LocalPoint<T>& local = out_.points.emplace_back();
     assign(local.center, k.center - origin_);
-    local.falloff = falloff_;
+    local.falloff = falloff(1);
   }
   void add(const SegmentSkeleton<double>& k, Step& step) {
     const double s = nearest(k.a, k.axis, k.begin, k.end);
@@ -105,23 +110,30 @@ class ShapePlacer {
     assign(local.axis, k.axis);
     local.begin = static_cast<T>(k.begin - s);
     local.end = static_cast<T>(k.end - s);
-    local.falloff = falloff_;
+    local.falloff = falloff(1);
   }
   void add(const ConeSkeleton<double>& k, Step& step) {
     const double s = nearest(k.base, k.axis, 0, k.height), side = std::hypot(k.height, k.disc_radius);
     const Vec3 anchor = k.base + s * k.axis - origin_;
     begin(step, StepKind::kCone, index(out_.cones), anchor);
     LocalCone<T>& local = out_.cones.emplace_back();
-    assign(local.a, anchor);
-    assign(local.axis, k.axis);
-    local.core = static_cast<T>(k.disc_radius * (1 - s / k.height));
+    const Vec3 u = glm::normalize(glm::cross(k.axis, std::abs(k.axis.x) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+    coordinate(local.u, u, anchor);
+    coordinate(local.v, glm::cross(k.axis, u), anchor);
+    coordinate(local.h, k.axis, anchor);
+    const double along = s / k.height, unit = per_support_;
+    local.core = static_cast<T>(k.disc_radius * (1 - along) * unit);
     local.tangent_rho = static_cast<T>(-k.disc_radius / side);
     local.tangent_h = static_cast<T>(k.height / side);
-    local.side_begin = static_cast<T>(-s / k.height * side);
-    local.side_end = static_cast<T>((1 - s / k.height) * side);
-    local.base_h = static_cast<T>(-s);
-    local.disc_radius = static_cast<T>(k.disc_radius);
-    local.falloff = falloff_;
+    local.side_begin = static_cast<T>(-along * side * unit);
+    local.side_end = static_cast<T>((1 - along) * side * unit);
+    local.base_h = static_cast<T>(-s * unit);
+    local.disc_radius = static_cast<T>(k.disc_radius * unit);
+    local.falloff = falloff(1 / per_support_);
+  }
+  void coordinate(T (&row)[4], const Vec3& direction, const Vec3& anchor) const {
+    for (int i = 0; i < 3; ++i) row[i] = static_cast<T>(direction[i] * per_support_);
+    row[3] = static_cast<T>(-glm::dot(direction, anchor) * per_support_);
   }
   void add(const DiscSkeleton<double>& k, Step& step) { add_ring(StepKind::kDisc, k.center, k.normal, k.disc_radius, step); }
   void add(const CircleSkeleton<double>& k, Step& step) { add_ring(StepKind::kCircle, k.center, k.normal, k.ring_radius, step); }
@@ -131,7 +143,7 @@ class ShapePlacer {
     assign(local.center, center - origin_);
     assign(local.normal, normal);
     local.radius = static_cast<T>(radius);
-    local.falloff = falloff_;
+    local.falloff = falloff(1);
   }
   void add(const BoxSkeleton<double>& k, Step& step) {
     begin(step, StepKind::kBox, index(out_.boxes), k.center - origin_);
@@ -139,13 +151,13 @@ class ShapePlacer {
     assign(local.center, k.center - origin_);
     assign(local.half_size, k.half_size);
     for (int i = 0; i < 3; ++i) assign(local.axes[i], k.world_from_box[i]);
-    local.falloff = falloff_;
+    local.falloff = falloff(1);
   }
 
   BatchProgram<T>& out_;
   Vec3 origin_{0.0};
-  double reach_ = 0, scale_ = 1, largest_ratio_ = 0;
-  LocalFalloff<T> falloff_{};
+  double reach_ = 0, largest_ratio_ = 0;
+  double per_support_ = 0, strength_ = 1;   // of the primitive that is being placed
 };
 
 /// False if points in a warp's space are not linear in those outside.

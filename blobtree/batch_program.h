@@ -14,8 +14,8 @@
 namespace cambium {
 
 template <class T>
-struct LocalFalloff {                     ///< f = strength * (1 - d^2 * per_support^2)^3
-  T inverse_square_support, strength;
+struct LocalFalloff {                     ///< f = strength * s^3, s = 1 - d^2 * per_square; gradient s^2 * slope * offset
+  T per_square, strength, slope;
 };
 template <class T>
 struct LocalPoint {
@@ -27,11 +27,12 @@ struct LocalSegment {                     ///< a + s axis, s in [begin, end]; a 
   T a[3], axis[3], begin, end;
   LocalFalloff<T> falloff;
 };
-/// Solid cone, seen from the point `a` of its axis nearest to the origin: h = (p - a).axis, and on the slanted side the point
-/// (rho, h) = (core, 0), the tangent towards the apex and how far the side runs both ways.
+/// Solid cone in its own coordinates u, v across and h along its axis, in units of the support radius, from the point of the axis
+/// nearest to the origin: rows of {x, y, z, offset}. On the slanted side: the point (rho, h) = (core, 0), the tangent towards the
+/// apex and how far the side runs both ways.
 template <class T>
 struct LocalCone {
-  T a[3], axis[3], core, tangent_rho, tangent_h, side_begin, side_end, base_h, disc_radius;
+  T u[4], v[4], h[4], core, tangent_rho, tangent_h, side_begin, side_end, base_h, disc_radius;
   LocalFalloff<T> falloff;
 };
 template <class T>

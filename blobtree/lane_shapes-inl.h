@@ -14,19 +14,27 @@ HWY_BEFORE_NAMESPACE();
 namespace cambium {
 namespace HWY_NAMESPACE {
 
+/// What a shape has to say of a point, in two steps: begin() is all up to the roots and divisions, end() the rest. A loop begins one
+/// vector of points while it ends the one before, for a machine looks only so far ahead for something to do while a root takes its
+/// time (a cone with gradient takes three quarters of the time that way).
 template <class T>
 struct Offset {
-  Lanes<T> square;
-  LaneVector<T> vector;   ///< only if it was asked for
+  Lanes<T> square;        ///< of the distance, in units of 1 / sqrt(LocalFalloff::per_square)
+  LaneVector<T> vector;   ///< from the nearest skeleton point, up to the factor that LocalFalloff::slope has; if it was asked for
 };
 
 template <class T>
 class PointLanes {
  public:
+  using Begun = LaneVector<T>;
+  static constexpr bool kInSupportRadii = false;
   HWY_INLINE explicit PointLanes(const LocalPoint<T>& k) : center_(broadcast(k.center)) {}
   template <bool kGradient>
-  HWY_INLINE Offset<T> offset(const LaneVector<T>& p) const {
-    const LaneVector<T> v = p - center_;
+  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
+    return p - center_;
+  }
+  template <bool kGradient>
+  HWY_INLINE Offset<T> end(const Begun& v) const {
     return {dot(v, v), v};
   }
 
@@ -37,11 +45,16 @@ class PointLanes {
 template <class T>
 class SegmentLanes {
  public:
+  using Begun = LaneVector<T>;
+  static constexpr bool kInSupportRadii = false;
   HWY_INLINE explicit SegmentLanes(const LocalSegment<T>& k)
       : a_(broadcast(k.a)), axis_(broadcast(k.axis)), begin_(k.begin), end_(k.end) {}
   template <bool kGradient>
-  HWY_INLINE Offset<T> offset(const LaneVector<T>& p) const {
-    const LaneVector<T> q = p - a_;
+  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
+    return p - a_;
+  }
+  template <bool kGradient>
+  HWY_INLINE Offset<T> end(const Begun& q) const {
     const LaneVector<T> v = q - smaller(larger(dot(q, axis_), begin_), end_) * axis_;
     return {dot(v, v), v};
   }
@@ -51,63 +64,90 @@ class SegmentLanes {
   Lanes<T> begin_, end_;
 };
 
-/// Of a point at distance rho from an axis: the vector e_rho outwards and e_h along the axis. On the axis outwards is nowhere.
+/// 1 / rho, and 0 on the axis, where outwards is nowhere.
 template <class T>
-HWY_INLINE LaneVector<T> back_in_space(const LaneVector<T>& axis, const LaneVector<T>& radial, Lanes<T> rho, Lanes<T> e_rho, Lanes<T> e_h) {
-  return or_zero(rho > Lanes<T>(1e-18), e_rho / rho) * radial + e_h * axis;
+HWY_INLINE Lanes<T> per_distance(Lanes<T> rho) {
+  return or_zero(rho > Lanes<T>(1e-18), Lanes<T>(1) / rho);
 }
 
 template <class T>
 class ConeLanes {
  public:
+  struct Begun {
+    Lanes<T> u, v, h, rho, per_rho;
+  };
+  static constexpr bool kInSupportRadii = true;
   HWY_INLINE explicit ConeLanes(const LocalCone<T>& k)
-      : a_(broadcast(k.a)), axis_(broadcast(k.axis)), core_(k.core), tangent_rho_(k.tangent_rho), tangent_h_(k.tangent_h),
-        side_begin_(k.side_begin), side_end_(k.side_end), base_h_(k.base_h), disc_radius_(k.disc_radius) {}
+      : u_(k.u), v_(k.v), h_(k.h), core_(k.core), tangent_rho_(k.tangent_rho), tangent_h_(k.tangent_h), side_begin_(k.side_begin),
+        side_end_(k.side_end), base_h_(k.base_h), disc_radius_(k.disc_radius) {}
   template <bool kGradient>
-  HWY_INLINE Offset<T> offset(const LaneVector<T>& p) const {
-    const LaneVector<T> q = p - a_;
-    const Lanes<T> h = dot(q, axis_);
-    const LaneVector<T> radial = q - h * axis_;
-    const Lanes<T> rho = root(dot(radial, radial));
+  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
+    Begun b{u_.at(p), v_.at(p), h_.at(p), Lanes<T>(0), Lanes<T>(0)};
+    b.rho = root(b.u * b.u + b.v * b.v);
+    if constexpr (kGradient) b.per_rho = per_distance(b.rho);
+    return b;
+  }
+  template <bool kGradient>
+  HWY_INLINE Offset<T> end(const Begun& b) const {
     // Above the base: in the frame of the slanted side. Inside both components are 0.
-    const Lanes<T> from_core = rho - core_;
-    const Lanes<T> along = h * tangent_h_ + from_core * tangent_rho_;
+    const Lanes<T> from_core = b.rho - core_;
+    const Lanes<T> along = b.h * tangent_h_ + from_core * tangent_rho_, out = from_core * tangent_h_ - b.h * tangent_rho_;
     const Lanes<T> beyond = along - smaller(larger(along, side_begin_), side_end_);
-    const Lanes<T> out = larger(from_core * tangent_h_ - h * tangent_rho_, Lanes<T>(0));
     // Below it: beside the disc and under it.
-    const Lanes<T> beside = larger(rho - disc_radius_, Lanes<T>(0)), under = h - base_h_;
-    const Condition<T> below = h < base_h_;
-    const Lanes<T> e1 = select(below, beside, beyond), e2 = select(below, under, out);
+    const Lanes<T> beside = b.rho - disc_radius_, under = b.h - base_h_;
+    const Condition<T> below = b.h < base_h_;
+    const Lanes<T> e1 = larger(select(below, beside, out), Lanes<T>(0)), e2 = select(below, under, beyond);
     Offset<T> result;
     result.square = e1 * e1 + e2 * e2;
     if constexpr (kGradient) {
-      const Lanes<T> e_rho = select(below, beside, beyond * tangent_rho_ + out * tangent_h_);
-      const Lanes<T> e_h = select(below, under, beyond * tangent_h_ - out * tangent_rho_);
-      result.vector = back_in_space(axis_, radial, rho, e_rho, e_h);
+      const Lanes<T> e_rho = select(below, e1, e2 * tangent_rho_ + e1 * tangent_h_);
+      const Lanes<T> e_h = select(below, e2, e2 * tangent_h_ - e1 * tangent_rho_);
+      const LaneVector<T> outwards = (b.u * b.per_rho) * u_.direction + (b.v * b.per_rho) * v_.direction;
+      result.vector = e_rho * outwards + e_h * h_.direction;
     }
     return result;
   }
 
  private:
-  LaneVector<T> a_, axis_;
+  struct Coordinate {
+    HWY_INLINE explicit Coordinate(const T (&row)[4])
+        : direction{Lanes<T>(row[0]), Lanes<T>(row[1]), Lanes<T>(row[2])}, offset(row[3]) {}
+    HWY_INLINE Lanes<T> at(const LaneVector<T>& p) const {
+      return (p.x * direction.x + offset) + (p.y * direction.y + p.z * direction.z);
+    }
+    LaneVector<T> direction;   ///< of length 1 / support radius
+    Lanes<T> offset;
+  };
+  Coordinate u_, v_, h_;
   Lanes<T> core_, tangent_rho_, tangent_h_, side_begin_, side_end_, base_h_, disc_radius_;
 };
 
 template <class T, bool kIsDisc>
 class RingLanes {
  public:
-  HWY_INLINE explicit RingLanes(const LocalRing<T>& k) : center_(broadcast(k.center)), normal_(broadcast(k.normal)), radius_(k.radius) {}
+  struct Begun {
+    LaneVector<T> radial;
+    Lanes<T> h, rho, per_rho;
+  };
+  static constexpr bool kInSupportRadii = false;
+  HWY_INLINE explicit RingLanes(const LocalRing<T>& k)
+      : center_(broadcast(k.center)), normal_(broadcast(k.normal)), radius_(k.radius) {}
   template <bool kGradient>
-  HWY_INLINE Offset<T> offset(const LaneVector<T>& p) const {
+  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
     const LaneVector<T> q = p - center_;
     const Lanes<T> h = dot(q, normal_);
-    const LaneVector<T> radial = q - h * normal_;
-    const Lanes<T> rho = root(dot(radial, radial));
-    Lanes<T> e = rho - radius_;
+    Begun b{q - h * normal_, h, Lanes<T>(0), Lanes<T>(0)};
+    b.rho = root(dot(b.radial, b.radial));
+    if constexpr (kGradient) b.per_rho = per_distance(b.rho);
+    return b;
+  }
+  template <bool kGradient>
+  HWY_INLINE Offset<T> end(const Begun& b) const {
+    Lanes<T> e = b.rho - radius_;
     if constexpr (kIsDisc) e = larger(e, Lanes<T>(0));
     Offset<T> result;
-    result.square = e * e + h * h;
-    if constexpr (kGradient) result.vector = back_in_space(normal_, radial, rho, e, h);
+    result.square = e * e + b.h * b.h;
+    if constexpr (kGradient) result.vector = (e * b.per_rho) * b.radial + b.h * normal_;
     return result;
   }
 
@@ -119,12 +159,17 @@ class RingLanes {
 template <class T>
 class BoxLanes {
  public:
+  using Begun = LaneVector<T>;
+  static constexpr bool kInSupportRadii = false;
   HWY_INLINE explicit BoxLanes(const LocalBox<T>& k)
       : center_(broadcast(k.center)), x_(broadcast(k.axes[0])), y_(broadcast(k.axes[1])), z_(broadcast(k.axes[2])),
         half_(broadcast(k.half_size)) {}
   template <bool kGradient>
-  HWY_INLINE Offset<T> offset(const LaneVector<T>& p) const {
-    const LaneVector<T> q = p - center_;
+  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
+    return p - center_;
+  }
+  template <bool kGradient>
+  HWY_INLINE Offset<T> end(const Begun& q) const {
     const Lanes<T> x = beyond(dot(q, x_), half_.x), y = beyond(dot(q, y_), half_.y), z = beyond(dot(q, z_), half_.z);
     Offset<T> result;
     result.square = x * x + y * y + z * z;
@@ -149,19 +194,22 @@ HWY_INLINE SweptNearest<T> swept(const LocalSwept<T>& k, const LaneVector<T>& p)
   const LaneVector<T> axis = broadcast(k.axis), q = p - broadcast(k.a);
   const Lanes<T> begin(k.begin), end(k.end), radius(k.radius), h = dot(q, axis);
   SweptNearest<T> result;
-  Lanes<T> s = h, r = radius;
-  if (k.slope != T(0)) {
-    const Lanes<T> slope(k.slope), denominator = radius + h * slope, thicker(k.slope > T(0) ? k.end : k.begin);
-    s = select(denominator > Lanes<T>(0), (h * radius + dot(q, q) * slope) / denominator, thicker);
-    s = smaller(larger(s, begin), end);
-    r = radius + s * slope;
-  } else {
-    s = smaller(larger(s, begin), end);
+  if (k.slope == T(0)) {
+    const LaneVector<T> v = q - smaller(larger(h, begin), end) * axis;
+    result.square = dot(v, v);
+    result.radius_square = radius * radius;
+    if constexpr (kGradient) result.vector = v;
+    return result;
   }
-  const LaneVector<T> v = q - s * axis;
-  result.square = dot(v, v);
+  // field.md's t* is h + e^2 slope / (radius at h), e the distance from the axis; where that radius is gone, the thicker end.
+  const Lanes<T> slope(k.slope), radius_at_h = radius + h * slope, thicker(k.slope > T(0) ? k.end : k.begin);
+  const LaneVector<T> across = q - h * axis;
+  const Lanes<T> e_square = dot(across, across);
+  const Lanes<T> best = select(radius_at_h > Lanes<T>(0), h + e_square * slope / radius_at_h, thicker);
+  const Lanes<T> s = smaller(larger(best, begin), end), ahead = h - s, r = radius + s * slope;
+  result.square = e_square + ahead * ahead;
   result.radius_square = r * r;
-  if constexpr (kGradient) result.vector = v;
+  if constexpr (kGradient) result.vector = across + ahead * axis;
   return result;
 }
 

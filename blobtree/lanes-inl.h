@@ -55,9 +55,28 @@ struct Lanes {
   friend HWY_INLINE Condition<T> operator==(Lanes a, Lanes b) { return {hn::Eq(a.v, b.v)}; }
 };
 
-template <class T> HWY_INLINE constexpr std::size_t lane_count() { return HWY_MAX_BYTES / sizeof(T); }
+template <class T> HWY_INLINE constexpr std::size_t lane_count() { return hn::MaxLanes(hn::ScalableTag<T>()); }
 template <class T> HWY_INLINE Lanes<T> load(const T* from) { return Lanes<T>(hn::Load(hn::ScalableTag<T>(), from)); }
 template <class T> HWY_INLINE void store(Lanes<T> a, T* to) { hn::Store(a.v, hn::ScalableTag<T>(), to); }
+
+/// From and to floats anywhere in memory.
+template <class T> HWY_INLINE Lanes<T> load_floats(const float* from) {
+  const hn::ScalableTag<T> d;
+  if constexpr (std::is_same_v<T, float>) {
+    return Lanes<T>(hn::LoadU(d, from));
+  } else {
+    return Lanes<T>(hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, decltype(d)>(), from)));
+  }
+}
+template <class T> HWY_INLINE void store_floats(Lanes<T> a, float* to) {
+  const hn::ScalableTag<T> d;
+  if constexpr (std::is_same_v<T, float>) {
+    hn::StoreU(a.v, d, to);
+  } else {
+    const hn::Rebind<float, decltype(d)> narrow;
+    hn::StoreU(hn::DemoteTo(narrow, a.v), narrow, to);
+  }
+}
 
 template <class T> HWY_INLINE Lanes<T> select(Condition<T> c, Lanes<T> a, Lanes<T> b) { return Lanes<T>(hn::IfThenElse(c.m, a.v, b.v)); }
 template <class T> HWY_INLINE Lanes<T> or_zero(Condition<T> c, Lanes<T> a) { return Lanes<T>(hn::IfThenElseZero(c.m, a.v)); }
