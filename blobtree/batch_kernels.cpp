@@ -79,8 +79,8 @@ class BatchRun {
  private:
   static constexpr bool kGradient = std::is_same_v<N, LaneDual<T>>;
   static constexpr std::size_t kPadding = 16;          // lanes of the widest vectors
-  static constexpr std::size_t kLargestChunk = 256;    // 64 and 512 are up to 10 % slower
-  static constexpr std::size_t kCacheBytes = 24 * 1024;
+  static constexpr std::size_t kLargestChunk = 768;    // 64 and 512 are up to 10 % slower
+  static constexpr std::size_t kCacheBytes = 16 * 1024;
 
   /// The points of a chunk; a last vector that they do not fill repeats the last one.
   void take(std::size_t begin, std::size_t count) const {
@@ -152,30 +152,25 @@ class BatchRun {
 
   // Loops keep what they need in locals: a store to a slot could be one to a member, for all the compiler knows.
 
-  /// slot = end(begin(i)), or slot += end(begin(i)), for all lanes, each begun a vector ahead.
-  template <class Begin, class End>
-  HWY_INLINE void set(const Step& step, const Begin& begin, const End& end) const {
+  /// slot = end(measure(begin(i))), or slot += that, for all lanes: three steps, each for another vector of points.
+  template <class Begin, class Measure, class End>
+  HWY_INLINE void set(const Step& step, const Begin& begin, const Measure& measure, const End& end) const {
     const Slot<N> to = slot(step.slot);
-    const std::size_t n = n_, last = n_ - lane_count<T>();
-    auto ahead = begin(std::size_t{0});
+    constexpr std::size_t kLanes = lane_count<T>();
+    const std::size_t n = n_, last = n_ - kLanes;
+    auto measured = measure(begin(std::size_t{0}));
+    auto begun = begin(std::min(kLanes, last));
+    const auto next = [&](std::size_t i) HWY_ATTR {
+      const auto to_end = measured;
+      const auto to_measure = begun;
+      begun = begin(std::min(i + 2 * kLanes, last));
+      measured = measure(to_measure);
+      return end(to_end);
+    };
     if (step.adds)
-      for (std::size_t i = 0; i < n; i += lane_count<T>()) {
-        const auto now = ahead;
-        ahead = begin(std::min(i + lane_count<T>(), last));
-        to.put(i, to.get(i) + end(now));
-      }
+      for (std::size_t i = 0; i < n; i += kLanes) to.put(i, to.get(i) + next(i));
     else
-      for (std::size_t i = 0; i < n; i += lane_count<T>()) {
-        const auto now = ahead;
-        ahead = begin(std::min(i + lane_count<T>(), last));
-        to.put(i, end(now));
-      }
-  }
-
-  /// strength (1 - x^2)^3, with the gradient that follows from that of a multiple of x^2.
-  static HWY_INLINE N falloff_lanes(Lanes<T> x2, Lanes<T> strength, Lanes<T> slope, const LaneVector<T>& direction) {
-    const Lanes<T> s = larger(Lanes<T>(1) - x2, Lanes<T>(0)), s2 = s * s;
-    return with_gradient<N>(s2 * (s * strength), (s2 * slope) * direction);
+      for (std::size_t i = 0; i < n; i += kLanes) to.put(i, next(i));
   }
 
   template <class Shape, class Local>
@@ -184,9 +179,15 @@ class BatchRun {
     const Points<T> at = points(step.frame);
     const Lanes<T> per_square(local.falloff.per_square), strength(local.falloff.strength), slope(local.falloff.slope);
     const auto begin = [&](std::size_t i) HWY_ATTR { return shape.template begin<kGradient>(at.get(i)); };
-    set(step, begin, [&](const typename Shape::Begun& begun) HWY_ATTR {
-      const Offset<T> o = shape.template end<kGradient>(begun);
-      return falloff_lanes(Shape::kInSupportRadii ? o.square : o.square * per_square, strength, slope, o.vector);
+    const auto measure = [&](const auto& begun) HWY_ATTR { return shape.template measure<kGradient>(begun); };
+    set(step, begin, measure, [&](const auto& m) HWY_ATTR {
+      const Lanes<T> x2 = Shape::kInSupportRadii ? m.square : m.square * per_square;
+      const Lanes<T> s = larger(Lanes<T>(1) - x2, Lanes<T>(0)), s2 = s * s, f = s2 * (s * strength);
+      if constexpr (kGradient) {
+        return with_gradient<N>(f, (s2 * slope) * shape.direction(m));
+      } else {
+        return f;
+      }
     });
   }
 
@@ -194,14 +195,20 @@ class BatchRun {
     const LocalSwept<T>* const segments = program_.swept.data() + step.first;
     const std::uint32_t count = step.count;
     const Points<T> at = points(step.frame);
-    constexpr T kPerSupport = static_cast<T>(kRadiusPerSupport * kRadiusPerSupport);
-    const Lanes<T> per_support(kPerSupport), strength(step.width), slope = Lanes<T>(-6 * kPerSupport) * strength;
+    constexpr T kPerSquare = static_cast<T>(kRadiusPerSupport * kRadiusPerSupport);
+    const Lanes<T> per_square(kPerSquare), strength(step.width), slope = Lanes<T>(-6 * kPerSquare) * strength;
     const auto begin = [&](std::size_t i) HWY_ATTR { return at.get(i); };
-    set(step, begin, [&](const LaneVector<T>& p) HWY_ATTR {
+    const auto same = [](const LaneVector<T>& p) HWY_ATTR { return p; };
+    set(step, begin, same, [&](const LaneVector<T>& p) HWY_ATTR {
       SweptNearest<T> best = swept<T, kGradient>(segments[0], p);
       for (std::uint32_t k = 1; k < count; ++k) best = nearer<T, kGradient>(best, swept<T, kGradient>(segments[k], p));
-      const Lanes<T> x2 = best.square / best.radius_square * per_support;
-      return falloff_lanes(x2, strength, kGradient ? slope / best.radius_square : slope, best.vector);
+      const Lanes<T> x2 = best.square / best.radius_square * per_square;
+      const Lanes<T> s = larger(Lanes<T>(1) - x2, Lanes<T>(0)), s2 = s * s, f = s2 * (s * strength);
+      if constexpr (kGradient) {
+        return with_gradient<N>(f, (s2 * slope / best.radius_square) * best.vector);
+      } else {
+        return f;
+      }
     });
   }
 
@@ -212,7 +219,8 @@ class BatchRun {
     const LaneVector<T> slope = (Lanes<T>(0) - per_two_widths) * normal;
     const Points<T> at = points(step.frame);
     const auto begin = [&](std::size_t i) HWY_ATTR { return at.get(i); };
-    set(step, begin, [&](const LaneVector<T>& p) HWY_ATTR {
+    const auto same = [](const LaneVector<T>& p) HWY_ATTR { return p; };
+    set(step, begin, same, [&](const LaneVector<T>& p) HWY_ATTR {
       const Lanes<T> t = Lanes<T>(0.5) - dot(p - on_plane, normal) * per_two_widths;
       const N ramp = select(t < Lanes<T>(1), with_gradient<N>(t, slope), N(1));
       return select(t > Lanes<T>(0), ramp, N(0));

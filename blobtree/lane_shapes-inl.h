@@ -14,29 +14,32 @@ HWY_BEFORE_NAMESPACE();
 namespace cambium {
 namespace HWY_NAMESPACE {
 
-/// What a shape has to say of a point, in two steps: begin() is all up to the roots and divisions, end() the rest. A loop begins one
-/// vector of points while it ends the one before, for a machine looks only so far ahead for something to do while a root takes its
-/// time (a cone with gradient takes three quarters of the time that way).
+// What a shape has to say of a point, in three steps: begin() is all up to roots and divisions, measure() gives the square of the
+// distance, direction() the vector from the nearest skeleton point (up to the factor that LocalFalloff::slope has). A loop takes each
+// step for another vector of points, because a machine looks only so far ahead for something to do while a root takes its time: a
+// cone takes six sevenths of the time that way, with gradient two thirds.
+
+/// Of a shape whose direction is there when the square is.
 template <class T>
 struct Offset {
-  Lanes<T> square;        ///< of the distance, in units of 1 / sqrt(LocalFalloff::per_square)
-  LaneVector<T> vector;   ///< from the nearest skeleton point, up to the factor that LocalFalloff::slope has; if it was asked for
+  Lanes<T> square;
+  LaneVector<T> vector;
 };
 
 template <class T>
 class PointLanes {
  public:
-  using Begun = LaneVector<T>;
   static constexpr bool kInSupportRadii = false;
   HWY_INLINE explicit PointLanes(const LocalPoint<T>& k) : center_(broadcast(k.center)) {}
   template <bool kGradient>
-  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
+  HWY_INLINE LaneVector<T> begin(const LaneVector<T>& p) const {
     return p - center_;
   }
   template <bool kGradient>
-  HWY_INLINE Offset<T> end(const Begun& v) const {
+  HWY_INLINE Offset<T> measure(const LaneVector<T>& v) const {
     return {dot(v, v), v};
   }
+  HWY_INLINE LaneVector<T> direction(const Offset<T>& o) const { return o.vector; }
 
  private:
   LaneVector<T> center_;
@@ -45,36 +48,39 @@ class PointLanes {
 template <class T>
 class SegmentLanes {
  public:
-  using Begun = LaneVector<T>;
   static constexpr bool kInSupportRadii = false;
   HWY_INLINE explicit SegmentLanes(const LocalSegment<T>& k)
       : a_(broadcast(k.a)), axis_(broadcast(k.axis)), begin_(k.begin), end_(k.end) {}
   template <bool kGradient>
-  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
+  HWY_INLINE LaneVector<T> begin(const LaneVector<T>& p) const {
     return p - a_;
   }
   template <bool kGradient>
-  HWY_INLINE Offset<T> end(const Begun& q) const {
+  HWY_INLINE Offset<T> measure(const LaneVector<T>& q) const {
     const LaneVector<T> v = q - smaller(larger(dot(q, axis_), begin_), end_) * axis_;
     return {dot(v, v), v};
   }
+  HWY_INLINE LaneVector<T> direction(const Offset<T>& o) const { return o.vector; }
 
  private:
   LaneVector<T> a_, axis_;
   Lanes<T> begin_, end_;
 };
 
-/// 1 / rho, and 0 on the axis, where outwards is nowhere.
+/// 1 / rho, finite on the axis, where outwards is nowhere.
 template <class T>
 HWY_INLINE Lanes<T> per_distance(Lanes<T> rho) {
-  return or_zero(rho > Lanes<T>(1e-18), Lanes<T>(1) / rho);
+  return Lanes<T>(1) / larger(rho, Lanes<T>(1e-18));
 }
 
 template <class T>
 class ConeLanes {
  public:
   struct Begun {
-    Lanes<T> u, v, h, rho, per_rho;
+    Lanes<T> u, v, h, rho, per_rho;   // the last only for gradients
+  };
+  struct Measured {
+    Lanes<T> square, u, v, per_rho, e_rho, e_h;   // all but the first only for gradients
   };
   static constexpr bool kInSupportRadii = true;
   HWY_INLINE explicit ConeLanes(const LocalCone<T>& k)
@@ -82,13 +88,14 @@ class ConeLanes {
         side_end_(k.side_end), base_h_(k.base_h), disc_radius_(k.disc_radius) {}
   template <bool kGradient>
   HWY_INLINE Begun begin(const LaneVector<T>& p) const {
-    Begun b{u_.at(p), v_.at(p), h_.at(p), Lanes<T>(0), Lanes<T>(0)};
+    Begun b;
+    b.u = u_.at(p), b.v = v_.at(p), b.h = h_.at(p);
     b.rho = root(b.u * b.u + b.v * b.v);
     if constexpr (kGradient) b.per_rho = per_distance(b.rho);
     return b;
   }
   template <bool kGradient>
-  HWY_INLINE Offset<T> end(const Begun& b) const {
+  HWY_INLINE Measured measure(const Begun& b) const {
     // Above the base: in the frame of the slanted side. Inside both components are 0.
     const Lanes<T> from_core = b.rho - core_;
     const Lanes<T> along = b.h * tangent_h_ + from_core * tangent_rho_, out = from_core * tangent_h_ - b.h * tangent_rho_;
@@ -97,15 +104,18 @@ class ConeLanes {
     const Lanes<T> beside = b.rho - disc_radius_, under = b.h - base_h_;
     const Condition<T> below = b.h < base_h_;
     const Lanes<T> e1 = larger(select(below, beside, out), Lanes<T>(0)), e2 = select(below, under, beyond);
-    Offset<T> result;
-    result.square = e1 * e1 + e2 * e2;
+    Measured m;
+    m.square = e1 * e1 + e2 * e2;
     if constexpr (kGradient) {
-      const Lanes<T> e_rho = select(below, e1, e2 * tangent_rho_ + e1 * tangent_h_);
-      const Lanes<T> e_h = select(below, e2, e2 * tangent_h_ - e1 * tangent_rho_);
-      const LaneVector<T> outwards = (b.u * b.per_rho) * u_.direction + (b.v * b.per_rho) * v_.direction;
-      result.vector = e_rho * outwards + e_h * h_.direction;
+      m.u = b.u, m.v = b.v, m.per_rho = b.per_rho;
+      m.e_rho = select(below, e1, e2 * tangent_rho_ + e1 * tangent_h_);
+      m.e_h = select(below, e2, e2 * tangent_h_ - e1 * tangent_rho_);
     }
-    return result;
+    return m;
+  }
+  HWY_INLINE LaneVector<T> direction(const Measured& m) const {
+    const LaneVector<T> outwards = (m.u * m.per_rho) * u_.direction + (m.v * m.per_rho) * v_.direction;
+    return m.e_rho * outwards + m.e_h * h_.direction;
   }
 
  private:
@@ -127,7 +137,12 @@ class RingLanes {
  public:
   struct Begun {
     LaneVector<T> radial;
-    Lanes<T> h, rho, per_rho;
+    Lanes<T> h, rho, per_rho;   // the last only for gradients
+  };
+  struct Measured {
+    Lanes<T> square;
+    LaneVector<T> radial;       // this and the following only for gradients
+    Lanes<T> outwards, h;
   };
   static constexpr bool kInSupportRadii = false;
   HWY_INLINE explicit RingLanes(const LocalRing<T>& k)
@@ -135,21 +150,23 @@ class RingLanes {
   template <bool kGradient>
   HWY_INLINE Begun begin(const LaneVector<T>& p) const {
     const LaneVector<T> q = p - center_;
-    const Lanes<T> h = dot(q, normal_);
-    Begun b{q - h * normal_, h, Lanes<T>(0), Lanes<T>(0)};
+    Begun b;
+    b.h = dot(q, normal_);
+    b.radial = q - b.h * normal_;
     b.rho = root(dot(b.radial, b.radial));
     if constexpr (kGradient) b.per_rho = per_distance(b.rho);
     return b;
   }
   template <bool kGradient>
-  HWY_INLINE Offset<T> end(const Begun& b) const {
+  HWY_INLINE Measured measure(const Begun& b) const {
     Lanes<T> e = b.rho - radius_;
     if constexpr (kIsDisc) e = larger(e, Lanes<T>(0));
-    Offset<T> result;
-    result.square = e * e + b.h * b.h;
-    if constexpr (kGradient) result.vector = (e * b.per_rho) * b.radial + b.h * normal_;
-    return result;
+    Measured m;
+    m.square = e * e + b.h * b.h;
+    if constexpr (kGradient) m.radial = b.radial, m.outwards = e * b.per_rho, m.h = b.h;
+    return m;
   }
+  HWY_INLINE LaneVector<T> direction(const Measured& m) const { return m.outwards * m.radial + m.h * normal_; }
 
  private:
   LaneVector<T> center_, normal_;
@@ -159,23 +176,25 @@ class RingLanes {
 template <class T>
 class BoxLanes {
  public:
-  using Begun = LaneVector<T>;
+  struct Measured {
+    Lanes<T> square, x, y, z;
+  };
   static constexpr bool kInSupportRadii = false;
   HWY_INLINE explicit BoxLanes(const LocalBox<T>& k)
       : center_(broadcast(k.center)), x_(broadcast(k.axes[0])), y_(broadcast(k.axes[1])), z_(broadcast(k.axes[2])),
         half_(broadcast(k.half_size)) {}
   template <bool kGradient>
-  HWY_INLINE Begun begin(const LaneVector<T>& p) const {
+  HWY_INLINE LaneVector<T> begin(const LaneVector<T>& p) const {
     return p - center_;
   }
   template <bool kGradient>
-  HWY_INLINE Offset<T> end(const Begun& q) const {
-    const Lanes<T> x = beyond(dot(q, x_), half_.x), y = beyond(dot(q, y_), half_.y), z = beyond(dot(q, z_), half_.z);
-    Offset<T> result;
-    result.square = x * x + y * y + z * z;
-    if constexpr (kGradient) result.vector = x * x_ + y * y_ + z * z_;
-    return result;
+  HWY_INLINE Measured measure(const LaneVector<T>& q) const {
+    Measured m;
+    m.x = beyond(dot(q, x_), half_.x), m.y = beyond(dot(q, y_), half_.y), m.z = beyond(dot(q, z_), half_.z);
+    m.square = m.x * m.x + m.y * m.y + m.z * m.z;
+    return m;
   }
+  HWY_INLINE LaneVector<T> direction(const Measured& m) const { return m.x * x_ + m.y * y_ + m.z * z_; }
 
  private:
   static HWY_INLINE Lanes<T> beyond(Lanes<T> s, Lanes<T> half) { return s - smaller(larger(s, Lanes<T>(0) - half), half); }
