@@ -91,7 +91,7 @@ class CellSearch {
     const Tape& tape = *s.tapes[tape_level];
     if (tape.empty()) return false;
     const Ball ball = circumscribed_ball(box);
-    const Interval f = tape.frames.empty() ? tape_interval(tree_, tape, active, ball, s.intervals)
+    const Interval f = tape.frames().empty() ? tape_interval(tree_, tape, active, ball, s.intervals)
                                            : s.evaluator.interval(PrunedField(tree_, tape, nullptr, box), ball);
     return holds_wanted(f);
   }
@@ -154,7 +154,7 @@ class CellSearch {
     if (few || leaf) {
       if (!can_hold(s, active, box, level, tape_level)) return;
       const Tape& tape = *s.tapes[tape_level];
-      leaf = leaf || height(level, active.size(), tape.smallest_radius) == 0;
+      leaf = leaf || height(level, active.size(), tape.smallest_radius()) == 0;
       if (leaf) {
         run.found(s.evaluator, {place, level, box, PrunedField(tree_, tape, nullptr, box), tape_level, s.serials[tape_level]});
         return;

@@ -16,10 +16,10 @@ namespace cambium {
 class GatheredShapes {
  public:
   void gather(const CompiledTree& tree, const Tape& tape) {
-    if (tree_.get() == &tree && std::ranges::equal(instructions_, tape.instructions) && std::ranges::equal(slots_, tape.slots)) return;
+    if (tree_.get() == &tree && std::ranges::equal(instructions_, tape.instructions()) && std::ranges::equal(slots_, tape.slots())) return;
     if (tree_.get() != &tree) tree_ = tree.shared_from_this();   // while it lives, no other tree has its address
-    instructions_.assign(tape.instructions.begin(), tape.instructions.end());
-    slots_.assign(tape.slots.begin(), tape.slots.end());
+    instructions_.assign(tape.instructions().begin(), tape.instructions().end());
+    slots_.assign(tape.slots().begin(), tape.slots().end());
     segments_.resize(slots_.size());
     place_.resize(instructions_.size());
     primitives_.clear();
@@ -57,7 +57,7 @@ struct Evaluator::Scratch {
   BatchScratch batch;
 
   static TapeView view(const CompiledTree& tree, const Tape& tape) {
-    return {tree, tape.instructions, tape.slots, tape.frames, tape.stack_size};
+    return {tree, tape.instructions(), tape.slots(), tape.frames(), tape.stack_size()};
   }
   static TapeView view(const PrunedField& field) { return view(*field.tree_, *field.tape_); }
 

@@ -23,8 +23,8 @@ PrunedField::PrunedField(const CompiledTree& tree, const Tape& tape, std::shared
       origin_(box.bounded() ? box.center() : tree.bounds.empty() ? Vec3(0.0) : tree.bounds.center()) {}
 
 bool PrunedField::empty() const { return !tape_ || tape_->empty(); }
-std::size_t PrunedField::atom_count() const { return tape_ ? tape_->atom_count : 0; }
-double PrunedField::smallest_radius() const { return tape_ ? tape_->smallest_radius : kInfinity; }
+std::size_t PrunedField::atom_count() const { return tape_ ? tape_->atom_count() : 0; }
+double PrunedField::smallest_radius() const { return tape_ ? tape_->smallest_radius() : kInfinity; }
 std::size_t PrunedField::memory_bytes() const {
   return sizeof(*this) + (tape_ ? sizeof(TapeAndTree) + tape_->array_bytes() : 0);
 }

@@ -13,7 +13,7 @@
 namespace cambium {
 
 struct CompiledTree;  // private to blobtree/
-struct Tape;
+class Tape;
 struct CoverOptions;
 struct RunOptions;
 class SurfaceCover;

@@ -18,40 +18,41 @@
 
 namespace cambium {
 
-/// Tapes one after another in a few large blocks; they never move.
+/// Tapes one after another in a few large blocks; they never move. A tape that was added lately is not kept twice.
 class SurfaceCover::TapeStore {
  public:
   const Tape* add(const Tape& tape) {
-    const std::size_t bytes = sizeof(Tape) + tape.array_bytes();
-    if (blocks_.empty() || used_ + bytes + alignof(Tape) > size_) {
-      size_ = std::max(std::min(2 * size_, kLargestBlock), bytes + alignof(Tape));
+    std::uint64_t hash = 0;
+    for (const std::uint32_t word : tape.slots()) hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+    for (const Instruction& in : tape.instructions()) hash = (hash ^ in.first ^ std::uint64_t{in.node} << 32) * 0x9e3779b97f4a7c15u;
+    const Tape*& lately = lately_[hash >> (64 - kLatelyBits)];
+    if (!lately || !(*lately == tape)) lately = keep(tape);
+    return lately;
+  }
+  void finish() { lately_ = {}; }
+  std::size_t count() const { return count_; }
+  std::size_t memory_bytes() const { return sizeof(*this) + blocks_.capacity() * sizeof(blocks_[0]) + held_; }
+
+ private:
+  const Tape* keep(const Tape& tape) {
+    const std::size_t bytes = (sizeof(Tape) + tape.array_bytes() + alignof(Tape) - 1) / alignof(Tape) * alignof(Tape);
+    if (blocks_.empty() || used_ + bytes > size_) {
+      size_ = std::max(std::min(2 * size_, kLargestBlock), bytes);
       blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(size_));
       used_ = 0;
       held_ += size_;
     }
     std::byte* const at = blocks_.back().get() + used_;
-    used_ += (bytes + alignof(Tape) - 1) / alignof(Tape) * alignof(Tape);
-    Tape* const kept = new (at) Tape(tape);
-    std::byte* next = at + sizeof(Tape);
-    const auto keep = [&]<class T>(std::span<const T>& array) {
-      T* const copy = reinterpret_cast<T*>(next);
-      std::uninitialized_copy(array.begin(), array.end(), copy);
-      next += array.size_bytes();
-      array = {copy, array.size()};
-    };
-    keep(kept->instructions);
-    keep(kept->slots);
-    keep(kept->frames);
+    used_ += bytes;
     ++count_;
-    return kept;
+    return new (at) Tape(tape.copied_to(at + sizeof(Tape)));
   }
-  std::size_t count() const { return count_; }
-  std::size_t memory_bytes() const { return sizeof(*this) + blocks_.capacity() * sizeof(blocks_[0]) + held_; }
 
- private:
-  static constexpr std::size_t kLargestBlock = std::size_t{1} << 16;
+  static constexpr std::size_t kLargestBlock = std::size_t{1} << 15;
+  static constexpr int kLatelyBits = 8;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::size_t size_ = 256, used_ = 0, held_ = 0, count_ = 0;
+  std::vector<const Tape*> lately_ = std::vector<const Tape*>(std::size_t{1} << kLatelyBits);
 };
 
 namespace {
@@ -94,6 +95,7 @@ class CoverRun : public CellRun {
   CoverRun& operator=(const CoverRun&) = delete;
   ~CoverRun() override {
     if (result_.cells.empty()) return;
+    result_.tapes->finish();
     const std::size_t count = result_.cells.size();
     if ((shared_.cells += count) > shared_.max_cells) shared_.too_many = true;
     const std::lock_guard lock(shared_.mutex);
@@ -120,9 +122,9 @@ class CoverRun : public CellRun {
   /// Where the primitives of a tape can be non-zero.
   Box occupied(const Tape& tape) const {
     Box support;
-    for (const Instruction& in : tape.instructions) {
+    for (const Instruction& in : tape.instructions()) {
       if (in.op == Op::kChain) {
-        for (std::uint32_t i = in.first; i < in.first + in.count; ++i) support.extend(shared_.tree.bounds_of(tape.slots[i]));
+        for (std::uint32_t i = in.first; i < in.first + in.count; ++i) support.extend(shared_.tree.bounds_of(tape.slots()[i]));
       } else if (in.op == Op::kPrimitive || in.op == Op::kHalfSpace) {
         support.extend(shared_.tree.bounds_of(in.first));
       }

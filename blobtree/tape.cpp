@@ -1,9 +1,23 @@
 #include "blobtree/tape.h"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 namespace cambium {
+
+Tape Tape::copied_to(std::byte* memory) const {
+  if (!empty()) std::memcpy(memory, instructions_, array_bytes());
+  Tape copy = *this;
+  copy.instructions_ = reinterpret_cast<const Instruction*>(memory);
+  return copy;
+}
+
+bool Tape::operator==(const Tape& other) const {
+  return instruction_count_ == other.instruction_count_ && slot_count_ == other.slot_count_ &&
+         frame_word_count_ == other.frame_word_count_ && std::ranges::equal(instructions(), other.instructions()) &&
+         std::ranges::equal(slots(), other.slots()) && std::ranges::equal(frames(), other.frames());
+}
 
 const Tape& TapeBuilder::build(std::span<const std::uint32_t> atoms) {
   open_.clear();
@@ -32,20 +46,25 @@ const Tape& TapeBuilder::build(std::span<const std::uint32_t> atoms) {
       collected_.resize(first);
     }
   }
-  tape_.instructions = instructions_;
-  tape_.slots = slots_;
-  tape_.frames = frames_;
-  tape_.atom_count = static_cast<std::uint32_t>(atoms.size());
+  tape_.atom_count_ = static_cast<std::uint32_t>(atoms.size());
+  tape_.instruction_count_ = static_cast<std::uint32_t>(instructions_.size());
+  tape_.slot_count_ = static_cast<std::uint32_t>(slots_.size());
+  tape_.frame_word_count_ = static_cast<std::uint32_t>(frames_.size());
+  packed_.resize((tape_.array_bytes() + sizeof(Instruction) - 1) / sizeof(Instruction));
+  tape_.instructions_ = packed_.data();
+  std::copy(instructions_.begin(), instructions_.end(), packed_.begin());
+  auto* const words = reinterpret_cast<std::uint32_t*>(packed_.data() + instructions_.size());
+  std::copy(frames_.begin(), frames_.end(), std::copy(slots_.begin(), slots_.end(), words));
   return tape_;
 }
 
 TapeBuilder::Value TapeBuilder::leaf(std::uint32_t atom) {
   const Atom& a = tree_.atoms[atom];
   const CompiledNode& n = tree_.nodes[a.node];
-  tape_.smallest_radius = std::min(tape_.smallest_radius, tree_.radius_of(atom));
+  tape_.smallest_radius_ = std::min(tape_.smallest_radius_, tree_.radius_of(atom));
   if (n.op == Op::kChain) return {a.node, atom, n.can_be_negative, true};
   emit(n.op, a.node, n.warp, false, atom, 1);
-  tape_.stack_size = std::max(tape_.stack_size, ++depth_);
+  tape_.stack_size_ = std::max(tape_.stack_size_, ++depth_);
   return {a.node, atom, n.can_be_negative, false};
 }
 
@@ -100,7 +119,7 @@ TapeBuilder::Value TapeBuilder::apply(std::uint32_t node, std::span<const Value>
   if (n.op == Op::kChain) {
     for (const Value& c : children) slots_.push_back(c.atom);
     emit(n.op, node, n.warp, false, first, count);
-    tape_.stack_size = std::max(tape_.stack_size, ++depth_);
+    tape_.stack_size_ = std::max(tape_.stack_size_, ++depth_);
     result.can_be_negative = n.can_be_negative;
     return result;
   }

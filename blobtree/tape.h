@@ -8,6 +8,7 @@
 
 #include "blobtree/compiled_tree.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -26,39 +27,48 @@ struct Instruction {
 };
 
 /// A tape does not depend on the box that it was made for, only on the atoms active there: neighbouring cells share it.
-/// The arrays belong to whoever made it.
-struct Tape {
-  std::span<const Instruction> instructions;
-  std::span<const std::uint32_t> slots;    ///< child slots of forks and differences, atoms of chains
-  std::span<const std::uint32_t> frames;   ///< per frame after the world: its warp node and the frame outside of it
-  std::uint32_t stack_size = 0;
-  std::uint32_t atom_count = 0;
-  double smallest_radius = kInfinity;      ///< of an active primitive, metres
+/// Its arrays lie in one block of memory that belongs to whoever made it: instructions, slots, frames.
+class Tape {
+ public:
+  Tape() = default;
 
-  bool empty() const { return instructions.empty(); }
-  std::size_t frame_count() const { return 1 + frames.size() / 2; }
-  std::uint32_t outside_of(std::size_t frame) const { return frames[2 * (frame - 1) + 1]; }   // frame >= 1
-  std::size_t array_bytes() const { return instructions.size_bytes() + slots.size_bytes() + frames.size_bytes(); }
+  std::span<const Instruction> instructions() const { return {instructions_, instruction_count_}; }
+  /// Child slots of forks and differences, atoms of chains.
+  std::span<const std::uint32_t> slots() const { return {words(), slot_count_}; }
+  /// Per frame after the world: its warp node and the frame outside of it.
+  std::span<const std::uint32_t> frames() const { return {words() + slot_count_, frame_word_count_}; }
+  std::uint32_t stack_size() const { return stack_size_; }
+  std::uint32_t atom_count() const { return atom_count_; }
+  /// Of an active primitive, metres.
+  double smallest_radius() const { return smallest_radius_; }
+  bool empty() const { return instruction_count_ == 0; }
+
+  /// Of its arrays.
+  std::size_t array_bytes() const {
+    return instruction_count_ * sizeof(Instruction) + (std::size_t{slot_count_} + frame_word_count_) * sizeof(std::uint32_t);
+  }
+  /// The same tape with its arrays copied to `memory`, which is aligned for an Instruction and holds array_bytes().
+  Tape copied_to(std::byte* memory) const;
+  bool operator==(const Tape& other) const;   ///< of the arrays' contents, which say all
+
+ private:
+  friend class TapeBuilder;
+  const std::uint32_t* words() const { return reinterpret_cast<const std::uint32_t*>(instructions_ + instruction_count_); }
+  const Instruction* instructions_ = nullptr;
+  std::uint32_t instruction_count_ = 0, slot_count_ = 0, frame_word_count_ = 0;
+  std::uint32_t stack_size_ = 0, atom_count_ = 0;
+  double smallest_radius_ = kInfinity;
 };
 
 /// A tape that owns its arrays.
 class OwnedTape {
  public:
-  OwnedTape() = default;
   explicit OwnedTape(const Tape& tape)
-      : instructions_(tape.instructions.begin(), tape.instructions.end()), slots_(tape.slots.begin(), tape.slots.end()),
-        frames_(tape.frames.begin(), tape.frames.end()), tape_(tape) {
-    tape_.instructions = instructions_;
-    tape_.slots = slots_;
-    tape_.frames = frames_;
-  }
-  OwnedTape(const OwnedTape&) = delete;
-  OwnedTape& operator=(const OwnedTape&) = delete;
+      : memory_(std::make_unique_for_overwrite<std::byte[]>(tape.array_bytes())), tape_(tape.copied_to(memory_.get())) {}
   const Tape& tape() const { return tape_; }
 
  private:
-  std::vector<Instruction> instructions_;
-  std::vector<std::uint32_t> slots_, frames_;
+  std::unique_ptr<std::byte[]> memory_;
   Tape tape_;
 };
 
@@ -94,6 +104,7 @@ class TapeBuilder {
   std::vector<Instruction> instructions_;
   std::vector<std::uint32_t> slots_, frames_, missing_;
   std::uint32_t depth_ = 0;
+  std::vector<Instruction> packed_;   ///< all of the tape in one block
   Tape tape_;
 };
 

@@ -32,7 +32,7 @@ class ListedPolicy {
 Interval tape_interval(const CompiledTree& tree, const Tape& tape, const ActiveAtoms& active, const Ball& ball,
                        TapeScratch<Interval>& scratch) {
   ListedPolicy policy(tree, active, ball);
-  const TapeView view{tree, tape.instructions, tape.slots, tape.frames, tape.stack_size};
+  const TapeView view{tree, tape.instructions(), tape.slots(), tape.frames(), tape.stack_size()};
   return a_hair_wider(run_tape(view, policy, scratch));
 }
 
