@@ -21,51 +21,62 @@ Interval bounds_of(const CompiledTree& tree, const CompiledNode& node, const Bal
                                    : primitive_interval(tree.primitive_of(node), ball);
 }
 
-/// Appends atoms to one list, and forgets a chain's segments that others hide everywhere.
+/// Writes one list, and forgets a chain's segments that others hide everywhere.
 class Listing {
  public:
-  explicit Listing(ActiveAtoms& active) : active_(active) { active_.clear(); }
-  ~Listing() { drop_hidden(); }
+  Listing(ActiveAtoms& active, std::size_t most) : active_(active) {
+    active.atoms.resize(most);
+    active.bounds.resize(most);
+    atoms_ = active.atoms.data();
+    bounds_ = active.bounds.data();
+  }
+  ~Listing() {
+    drop_hidden();
+    active_.atoms.resize(count_);
+    active_.bounds.resize(count_);
+  }
   Listing(const Listing&) = delete;
   Listing& operator=(const Listing&) = delete;
 
   void add(std::uint32_t atom, const Interval& bounds) {
-    if (chain_ != kNone) drop_hidden();
+    drop_hidden();
+    chain_ = kNone;
     append(atom, bounds);
   }
-  void add_segment(std::uint32_t atom, std::uint32_t chain, const Interval& ratio) {
+  void add_segment(std::uint32_t atom, std::uint32_t chain, double ratio_lo, double ratio_hi) {
     if (chain != chain_) {
       drop_hidden();
       chain_ = chain;
-      begin_ = active_.size();
+      begin_ = count_;
       nearest_ = kInfinity;
       farthest_ = 0;
     }
-    nearest_ = std::min(nearest_, ratio.hi * (1 + 1e-9) + 1e-9);
-    farthest_ = std::max(farthest_, ratio.lo);
-    append(atom, ratio);
+    nearest_ = std::min(nearest_, ratio_hi * (1 + 1e-9) + 1e-9);
+    farthest_ = std::max(farthest_, ratio_lo);
+    append(atom, {ratio_lo, ratio_hi});
   }
 
  private:
   void append(std::uint32_t atom, const Interval& bounds) {
-    active_.atoms.push_back(atom);
-    active_.bounds.push_back(bounds);
+    atoms_[count_] = atom;
+    bounds_[count_++] = bounds;
   }
   void drop_hidden() {
-    if (chain_ == kNone) return;
-    chain_ = kNone;
     if (!(farthest_ > nearest_)) return;
     std::size_t kept = begin_;
-    for (std::size_t i = begin_; i < active_.size(); ++i) {
-      active_.atoms[kept] = active_.atoms[i];
-      active_.bounds[kept] = active_.bounds[i];
-      kept += active_.bounds[i].lo <= nearest_;
+    for (std::size_t i = begin_; i < count_; ++i) {
+      atoms_[kept] = atoms_[i];
+      bounds_[kept] = bounds_[i];
+      kept += bounds_[i].lo <= nearest_;
     }
-    active_.atoms.resize(kept);
-    active_.bounds.resize(kept);
+    count_ = kept;
+    nearest_ = kInfinity;
   }
 
   ActiveAtoms& active_;
+  std::uint32_t* atoms_;
+  Interval* bounds_;
+  std::size_t count_ = 0;
   std::uint32_t chain_ = kNone;   // whose segments are being listed,
   std::size_t begin_ = 0;         // where they begin,
   double nearest_ = kInfinity;    // what the nearest one's distance stays below everywhere in the box,
@@ -84,7 +95,7 @@ struct Sides {
 }  // namespace
 
 void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& box, ActiveAtoms& active) {
-  Listing list(active);
+  Listing list(active, candidates.size());
   const FloatBox reach(box);
   const Ball ball = ball_around(box);
   const bool bounded = ball.radius < kInfinity;
@@ -96,7 +107,7 @@ void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candid
       list.add(atom, {});
     } else if (node.op == Op::kChain) {
       const Interval x = swept_ratio_interval(tree.segment_of(atom), ball);
-      if (x.lo < kFar) list.add_segment(atom, id, x);
+      if (x.lo < kFar) list.add_segment(atom, id, x.lo, x.hi);
     } else {
       const Interval f = bounds_of(tree, node, ball);
       if (f.lo != 0 || f.hi != 0) list.add(atom, f);
@@ -118,8 +129,10 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
   const FloatBox reach(cube), plane(Box{middle, middle});
   const Sides x{plane.hi.x, plane.lo.x, 0x55, 0xaa}, y{plane.hi.y, plane.lo.y, 0x33, 0xcc}, z{plane.hi.z, plane.lo.z, 0x0f, 0xf0};
 
-  std::array<Listing, kChildren> lists{Listing(children[0]), Listing(children[1]), Listing(children[2]), Listing(children[3]),
-                                       Listing(children[4]), Listing(children[5]), Listing(children[6]), Listing(children[7])};
+  const std::size_t n = candidates.size();
+  std::array<Listing, kChildren> lists{Listing(children[0], n), Listing(children[1], n), Listing(children[2], n),
+                                       Listing(children[3], n), Listing(children[4], n), Listing(children[5], n),
+                                       Listing(children[6], n), Listing(children[7], n)};
   constexpr std::size_t kBlock = 64;   // of segments whose bounds are found in one go
   segments_.resize(kBlock);
   bounds_.resize(kBlock);
@@ -143,7 +156,7 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
       for (unsigned bits = touched[i]; bits != 0; bits &= bits - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(bits));
         if (segment) {
-          if (ratio->lo[k] < kFar) lists[k].add_segment(atom, id, {ratio->lo[k], ratio->hi[k]});
+          if (ratio->lo[k] < kFar) lists[k].add_segment(atom, id, ratio->lo[k], ratio->hi[k]);
         } else if (warped) {
           lists[k].add(atom, {});
         } else {

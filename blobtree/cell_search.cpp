@@ -53,8 +53,10 @@ class CellSearch {
 
   struct Scratch {
     explicit Scratch(const CompiledTree& tree)
-        : builders(kMostLevels + 1, TapeBuilder(tree)), tapes(kMostLevels + 1), children(kMostLevels + 1) {}
-    std::vector<TapeBuilder> builders;              // the tape of the region that is being looked at on each level
+        : builders(kMostLevels + 1, TapeBuilder(tree)), built(kMostLevels + 1), tapes(kMostLevels + 1),
+          children(kMostLevels + 1) {}
+    std::vector<TapeBuilder> builders;              // the tape of the region that is being looked at on each level,
+    std::vector<std::vector<std::uint32_t>> built;  // and the atoms that it was made of
     std::vector<const Tape*> tapes;
     std::array<std::uint64_t, kMostLevels + 1> serials{};
     std::uint64_t last_serial = 0;
@@ -84,8 +86,11 @@ class CellSearch {
   /// Makes the tape of a region, unless tape_level tells whose it shares, and asks what it can hold.
   bool can_hold(Scratch& s, const ActiveAtoms& active, const Box& box, int level, int& tape_level) const {
     if (tape_level < 0) {
-      s.tapes[level] = &s.builders[level].build(active.atoms);
-      s.serials[level] = ++s.last_serial;
+      if (s.built[level] != active.atoms) {   // else the last region on this level, most often a neighbour, had the same
+        s.built[level] = active.atoms;
+        s.tapes[level] = &s.builders[level].build(active.atoms);
+        s.serials[level] = ++s.last_serial;
+      }
       tape_level = level;
     }
     const Tape& tape = *s.tapes[tape_level];
