@@ -66,7 +66,7 @@ void add_building_rows(Report& report, const TreeCase& tree, const TreeCase* ref
   };
   memory_row("memory of the BlobTree", [](const TreeCase& of) -> const BlobTree& { return of.tree; });
   if (is_million)
-    report.add({.what = "memory of the BlobTree, of 200 B",
+    report.add({.what = "memory of the BlobTree against its limit",
                 .figure = memory_per_internode(tree, tree.tree.memory_bytes()),
                 .unit = "B/internode",
                 .target = at_most(200)});
