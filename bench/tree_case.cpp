@@ -15,10 +15,12 @@ TreeCase make_tree_case(std::string name, const std::function<Skeleton()>& make_
   SurfaceOptions options;
   options.lip = 1.5;
   double surface_seconds = 0, compile_seconds = 0;
+  const auto threads_begin = thread_times();
   Surfaced surfaced = timed(surface_seconds, [&] { return surface(skeleton, options); });
   const Field field = timed(compile_seconds, [&] { return Field(surfaced.tree); });
+  const double processor_seconds = threads_since(threads_begin).busiest_ran;
   TreeCase made{std::move(name), std::move(skeleton), std::move(surfaced.tree), field, CoverTimings(field), {},
-                surface_seconds, compile_seconds};
+                surface_seconds, compile_seconds,     processor_seconds};
   made.cover.measure_cover(2);
   const std::size_t peak = peak_resident_bytes();
   made.peak_bytes = peak > before ? peak - before : 0;

@@ -22,6 +22,7 @@ struct TreeCase {
   CoverTimings cover;                ///< one with two threads is already timed
   std::vector<SurfacePlace> places;  ///< where its cells are pruned
   double surface_seconds = 0, compile_seconds = 0;
+  double processor_seconds = 0;  ///< of both, by the thread that was busiest; 0 where that is not known
   std::size_t peak_bytes = 0;  ///< resident at most from the skeleton to a cover with two threads, skeleton and all counted
   double mean_active = 0;      ///< primitives in a cell
 

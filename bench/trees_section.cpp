@@ -89,16 +89,23 @@ void time_covers(Cases& cases, const Pace& pace) {
     }
 }
 
-/// What the issue asks of a whole run at a million internodes.
+/// What the issue asks of a whole run at a million internodes. Where other programs disturb the wall clock, processor time
+/// is judged in its place.
 void add_whole_rows(Report& report, const TreeCase& tree) {
+  const bool is_million = tree.internodes() == 1e6;
   Row whole{.what = "skeleton to cover, 2 threads", .unit = "s"};
   whole.figure = tree.surface_seconds + tree.compile_seconds + tree.cover.seconds(2);
-  Row peak{.what = "peak memory, skeleton to cover", .figure = static_cast<double>(tree.peak_bytes) / 1e9, .unit = "GB"};
-  if (tree.internodes() == 1e6) {
-    whole.target = at_most(60);
-    peak.target = at_most(8);
-  }
+  const bool by_processor = tree.cover.disturbed() && tree.processor_seconds > 0;
+  if (is_million && !by_processor) whole.target = at_most(60);
   report.add(whole);
+  if (by_processor) {
+    Row busier{.what = "the same, processor time of the busier", .unit = "s"};
+    busier.figure = tree.processor_seconds + tree.cover.busier_thread_seconds();
+    if (is_million) busier.target = at_most(60);
+    report.add(busier);
+  }
+  Row peak{.what = "peak memory, skeleton to cover", .figure = static_cast<double>(tree.peak_bytes) / 1e9, .unit = "GB"};
+  if (is_million) peak.target = at_most(8);
   report.add(peak);
 }
 
