@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "blobtree/batch_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
+#include "blobtree/lane_power-inl.h"
 #include "blobtree/lane_shapes-inl.h"
 
 #include "blobtree/batch_kernels.h"
@@ -60,7 +61,7 @@ class BatchRun {
     const std::size_t fitting = kCacheBytes / (sizeof(T) * arrays) / kPadding * kPadding;
     capacity_ = std::clamp(fitting, kPadding, kLargestChunk);
     capacity_ = std::min(capacity_, (batch.n + kPadding - 1) / kPadding * kPadding);
-    stride_ = capacity_ + 64;
+    stride_ = capacity_ + capacity_ / 4 / kPadding * kPadding;
     points_ = memory.at_least<T>(arrays * stride_);
     slots_ = points_ + 3 * program.frames.size() * stride_;
   }
@@ -300,6 +301,8 @@ void double_samples(const BatchProgram<double>& program, ChunkMemory& memory, co
   BatchRun<LaneDual<double>>(program, memory, batch).run();
 }
 
+std::int64_t this_target() { return HWY_TARGET; }
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 }  // namespace HWY_NAMESPACE
 }  // namespace cambium
@@ -312,6 +315,7 @@ HWY_EXPORT(float_values);
 HWY_EXPORT(float_samples);
 HWY_EXPORT(double_values);
 HWY_EXPORT(double_samples);
+HWY_EXPORT(this_target);
 
 template <>
 void run_values(const BatchProgram<float>& program, ChunkMemory& memory, const BatchArrays& batch) {
@@ -331,6 +335,7 @@ void run_samples(const BatchProgram<double>& program, ChunkMemory& memory, const
 }
 
 std::int64_t compiled_vector_targets() { return HWY_TARGETS; }
+std::int64_t running_vector_target() { return HWY_DYNAMIC_DISPATCH(this_target)(); }
 
 }  // namespace cambium
 #endif  // HWY_ONCE

@@ -34,13 +34,14 @@ class ChunkMemory {
   std::vector<Line> lines_;
 };
 
-/// Every set of vector instructions gives the same bits, but for the last ones of a ricci.
+/// Every set of vector instructions gives the same bits.
 template <class T>
 void run_values(const BatchProgram<T>& program, ChunkMemory& memory, const BatchArrays& batch);
 template <class T>
 void run_samples(const BatchProgram<T>& program, ChunkMemory& memory, const BatchArrays& batch);
 
-/// Highway's bits of the sets of vector instructions that the kernels are compiled for, for tests.
+/// Highway's bits of the sets of vector instructions that the kernels are compiled for, and of the one that runs; for tests.
 std::int64_t compiled_vector_targets();
+std::int64_t running_vector_target();
 
 }  // namespace cambium

@@ -10,8 +10,6 @@
 #endif
 
 #include <hwy/highway.h>
-// After highway.h:
-#include <hwy/contrib/math/math-inl.h>
 
 #include "blobtree/batch_program.h"
 
@@ -84,12 +82,6 @@ template <class T> HWY_INLINE Lanes<T> smaller(Lanes<T> a, Lanes<T> b) { return 
 template <class T> HWY_INLINE Lanes<T> larger(Lanes<T> a, Lanes<T> b) { return Lanes<T>(hn::Max(a.v, b.v)); }
 template <class T> HWY_INLINE Lanes<T> root(Lanes<T> a) { return Lanes<T>(hn::Sqrt(a.v)); }
 
-/// a^e for a >= 0.
-template <class T> HWY_INLINE Lanes<T> power(Lanes<T> a, std::type_identity_t<T> e) {
-  const hn::ScalableTag<T> d;
-  return or_zero(a > Lanes<T>(0), Lanes<T>(hn::Exp(d, hn::Mul(hn::Set(d, e), hn::Log(d, a.v)))));
-}
-
 template <class T>
 struct LaneDual {
   Lanes<T> f, x, y, z;
@@ -117,11 +109,6 @@ struct LaneDual {
 template <class T> HWY_INLINE LaneDual<T> select(Condition<T> c, const LaneDual<T>& a, const LaneDual<T>& b) {
   return {select(c, a.f, b.f), select(c, a.x, b.x), select(c, a.y, b.y), select(c, a.z, b.z)};
 }
-template <class T> HWY_INLINE LaneDual<T> power(const LaneDual<T>& a, std::type_identity_t<T> e) {
-  const Lanes<T> p = power(a.f, e), slope = or_zero(a.f > Lanes<T>(0), Lanes<T>(e) * p / a.f);
-  return {p, slope * a.x, slope * a.y, slope * a.z};
-}
-
 template <class T> HWY_INLINE Lanes<T> value_of(Lanes<T> a) { return a; }
 template <class T> HWY_INLINE Lanes<T> value_of(const LaneDual<T>& a) { return a.f; }
 

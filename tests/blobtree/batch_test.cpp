@@ -1,8 +1,14 @@
-// Float batches where float is weak: thin twigs far from the origin, wide trees.
+// Float batches where float is weak: thin twigs far from the origin, wide trees. And whatever the vector instructions, the number of
+// points and what the evaluator did before: the same bits.
+#include "blobtree/batch_kernels.h"
 #include "blobtree/field.h"
 #include "conformance_cases.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <bit>
+#include <optional>
 
 namespace cambium {
 namespace {
@@ -98,6 +104,199 @@ TEST(Batch, MillimetreTwigsAgreeInABoxAHundredMetresWide) {
     telling += exact > 0.1 && exact < 0.9;
   }
   EXPECT_GT(telling, 500);
+}
+
+/// While it lives, only one of Highway's sets of vector instructions is used.
+class OnlyVectorTarget {
+ public:
+  explicit OnlyVectorTarget(std::int64_t target) { use(target); }
+  ~OnlyVectorTarget() { use(0); }   // as detected
+
+ private:
+  static void use(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().DeInit();
+  }
+};
+
+std::vector<std::int64_t> vector_targets() {
+  std::vector<std::int64_t> targets;
+  const std::int64_t here = hwy::SupportedTargets() & compiled_vector_targets();
+  for (int bit = 0; bit < 63; ++bit)
+    if (here >> bit & 1) targets.push_back(std::int64_t{1} << bit);
+  return targets;   // the best first, plain C++ last
+}
+
+/// Points in a box and what a batch says of them. Arrays begin `shift` floats into their memory, so that they are not aligned.
+struct PointBatch {
+  PointBatch(const PrunedField& field, Draws& draws, std::size_t n, std::size_t shift) : n_(n), shift_(shift) {
+    for (std::vector<float>* v : {&x, &y, &z, &f, &gx, &gy, &gz}) v->resize(n + shift, -7.0f);
+    for (std::size_t i = shift; i < n + shift; ++i) {
+      const Vec3 p = draws.point(field.box()) - field.origin();
+      x[i] = static_cast<float>(p.x), y[i] = static_cast<float>(p.y), z[i] = static_cast<float>(p.z);
+    }
+  }
+  void values(Evaluator& evaluator, const PrunedField& field) { evaluator.values(field, of(x), of(y), of(z), of(f)); }
+  void samples(Evaluator& evaluator, const PrunedField& field) {
+    evaluator.samples(field, of(x), of(y), of(z), of(f), of(gx), of(gy), of(gz));
+  }
+  std::span<float> of(std::vector<float>& v) { return {v.data() + shift_, n_}; }
+
+  std::vector<float> x, y, z, f, gx, gy, gz;
+
+ private:
+  std::size_t n_, shift_;
+};
+
+void expect_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(std::bit_cast<std::uint32_t>(a[i]), std::bit_cast<std::uint32_t>(b[i])) << i;
+}
+
+TEST(Batch, EverySetOfVectorInstructionsGivesTheSameBits) {
+  const std::vector<std::int64_t> targets = vector_targets();
+  ASSERT_FALSE(targets.empty());
+  constexpr std::size_t kSizes[] = {1, 3, 15, 16, 17, 100, 729, 1600};
+  std::size_t turn = 0, nonzero = 0, total = 0;
+  for (const ConformanceCase& c : conformance_cases()) {
+    SCOPED_TRACE(c.name);
+    const Field field(c.tree);
+    Draws draws(++turn);
+    const Box around = field.bounds().empty() ? Box{Vec3(-1), Vec3(1)} : field.bounds();
+    for (int k = 0; k < 4; ++k) {
+      const PrunedField pruned = field.prune(k == 0 ? around : draws.box(around));
+      const std::size_t n = kSizes[(turn + static_cast<std::size_t>(k)) % std::size(kSizes)];
+      const PointBatch points(pruned, draws, n, turn % 4);
+      std::optional<PointBatch> expected_values, expected_samples;
+      for (const std::int64_t target : targets) {
+        SCOPED_TRACE(hwy::TargetName(target));
+        const OnlyVectorTarget only(target);
+        ASSERT_EQ(running_vector_target(), target);
+        PointBatch values = points, samples = points;
+        Evaluator evaluator;
+        values.values(evaluator, pruned);
+        samples.samples(evaluator, pruned);
+        if (!expected_values) {
+          for (const float f : values.of(values.f)) {
+            ASSERT_TRUE(std::isfinite(f));
+            nonzero += f != 0;
+            ++total;
+          }
+          expected_values = values;
+          expected_samples = samples;
+          continue;
+        }
+        expect_same_bits(expected_values->f, values.f);
+        expect_same_bits(expected_samples->f, samples.f);
+        expect_same_bits(expected_samples->gx, samples.gx);
+        expect_same_bits(expected_samples->gy, samples.gy);
+        expect_same_bits(expected_samples->gz, samples.gz);
+        if (testing::Test::HasFatalFailure()) return;
+      }
+    }
+  }
+  EXPECT_GT(nonzero, total / 10);
+}
+
+TEST(Batch, PointsDoNotKnowTheirNeighbours) {
+  int turn = 0;
+  for (const ConformanceCase& c : conformance_cases()) {
+    SCOPED_TRACE(c.name);
+    const Field field(c.tree);
+    Draws draws(static_cast<std::uint64_t>(++turn));
+    const Box around = field.bounds().empty() ? Box{Vec3(-1), Vec3(1)} : field.bounds();
+    const PrunedField pruned = field.prune(draws.box(around));
+    PointBatch all(pruned, draws, 200, 0);
+    Evaluator evaluator;
+    all.samples(evaluator, pruned);
+    for (const std::size_t n : {1, 3, 15, 17, 50}) {
+      const std::size_t from = static_cast<std::size_t>(draws.below(static_cast<int>(200 - n)));
+      std::vector<float> f(n + 1, -7.0f), gx = f, gy = f, gz = f;
+      const auto part = [&](const std::vector<float>& v) { return std::span<const float>(v).subspan(from, n); };
+      evaluator.samples(pruned, part(all.x), part(all.y), part(all.z), {f.data(), n}, {gx.data(), n}, {gy.data(), n}, {gz.data(), n});
+      for (std::size_t i = 0; i < n; ++i) {
+        ASSERT_EQ(f[i], all.f[from + i]);
+        ASSERT_EQ(gx[i], all.gx[from + i]);
+        ASSERT_EQ(gy[i], all.gy[from + i]);
+        ASSERT_EQ(gz[i], all.gz[from + i]);
+      }
+      ASSERT_EQ(f[n], -7.0f);   // nothing is written past the end
+      ASSERT_EQ(gz[n], -7.0f);
+    }
+  }
+}
+
+// In cells as large as branches are thick, floats keep a millionth.
+TEST(Batch, OnePrimitiveInACellAgreesWithPointsToAMillionth) {
+  const auto primitives = [](Draws& d) {
+    const Vec3 a = 0.03 * d.direction(), u = d.direction();
+    Chain chain;
+    for (int i = -4; i <= 4; ++i) chain.nodes.push_back({a + 0.06 * i * u + 0.005 * d.direction(), 0.05 - 0.002 * i});
+    return std::vector<Node>{Cone{a - 0.4 * u, a + 0.4 * u, 0.08, 0.05, 1}, Sphere{a, 0.05, 1}, Capsule{a - u, a + 0.1 * u, 0.05, -1},
+                             Disc{a, u, 0.04, 0.05, 1}, Torus{a + 0.2 * d.direction(), u, 0.2, 0.05, 1},
+                             RotatedBox{a, {0.02, 0.03, 0.04}, {1, u.x, u.y, u.z}, 0.05, 1}, chain};
+  };
+  Draws draws(11);
+  Evaluator evaluator;
+  int telling = 0;
+  for (int turn = 0; turn < 20; ++turn)
+    for (const Node& node : primitives(draws)) {
+      BlobTreeBuilder b;
+      const NodeId id = b.add(node);
+      const Field field(b.build(id));
+      const Vec3 center = 0.08 * draws.direction();
+      const PrunedField pruned = field.prune({center - 0.05, center + 0.05});
+      PointBatch batch(pruned, draws, 300, 0);
+      batch.values(evaluator, pruned);
+      for (std::size_t i = 0; i < 300; ++i) {
+        const double exact = evaluator.value(pruned, pruned.origin() + Vec3(batch.x[i], batch.y[i], batch.z[i]));
+        ASSERT_NEAR(batch.f[i], exact, 1e-6) << "node " << node.index();
+        telling += std::abs(exact) > 0.1 && std::abs(exact) < 0.9;
+      }
+    }
+  EXPECT_GT(telling, 10000);
+}
+
+// An evaluator keeps what it made of the last field: whatever else has come to stand in its place, it must not be taken for it.
+TEST(Batch, AnEvaluatorIsNotMisledByTheLastField) {
+  Evaluator kept;
+  Draws draws(5);
+  for (int turn = 0; turn < 200; ++turn) {
+    BlobTreeBuilder b;
+    const NodeId cone = b.add(Cone{{0, 0, 0}, {0, 0.1 * (turn % 3), 1}, draws.in(0.2, 0.3), 0.2, 1});
+    const NodeId id = b.add(ScaleField{draws.in(0.5, 1), cone});
+    const Field field(b.build(id));   // most likely where the last one was
+    for (int place = 0; place < 3; ++place) {
+      const Vec3 center = 0.2 * draws.direction();
+      const double half = place == 1 ? 20 : 0.1;   // in double, in float
+      const PrunedField pruned = field.prune({center - half, center + half});
+      PointBatch batch(pruned, draws, 20, 0), again = batch;
+      batch.samples(kept, pruned);
+      again.values(kept, pruned);
+      PointBatch expected = batch;
+      Evaluator fresh;
+      expected.samples(fresh, pruned);
+      expect_same_bits(batch.f, expected.f);
+      expect_same_bits(batch.gz, expected.gz);
+      expected.values(fresh, pruned);
+      expect_same_bits(again.f, expected.f);
+    }
+  }
+}
+
+TEST(Batch, MayWriteOverItsPoints) {
+  BlobTreeBuilder b;
+  const NodeId first = b.add(Sphere{{0, 0, 0}, 0.5, 1}), second = b.add(Capsule{{0, 0, 0}, {0, 1, 0}, 0.3, 1});
+  const Field field(b.build(b.add(Contact{{first, second}, 0.5, 1})));
+  const PrunedField pruned = field.prune(field.bounds());
+  Draws draws(3);
+  PointBatch apart(pruned, draws, 1000, 1), over = apart;
+  Evaluator evaluator;
+  apart.samples(evaluator, pruned);
+  evaluator.samples(pruned, over.of(over.x), over.of(over.y), over.of(over.z), over.of(over.f), over.of(over.x), over.of(over.y),
+                    over.of(over.z));
+  expect_same_bits(apart.f, over.f);
+  for (std::size_t i = 1; i < 1001; ++i) ASSERT_EQ(apart.gy[i], over.y[i]);
 }
 
 TEST(Batch, OfNoPointsDoesNothing) {
