@@ -21,6 +21,10 @@ Interval bounds_of(const CompiledTree& tree, const CompiledNode& node, const Bal
                                    : primitive_interval(tree.primitive_of(node), ball);
 }
 
+std::uint32_t run_of(const CompiledTree& tree, const CompiledNode& node, std::uint32_t atom) {
+  return tree.leaf_of(node).first_run + (atom - node.first_atom) / kRunAtoms;
+}
+
 /// Writes one list, and forgets a chain's segments that others hide everywhere.
 class Listing {
  public:
@@ -83,13 +87,21 @@ class Listing {
   double farthest_ = 0;           // and the most that one's distance stays above
 };
 
-/// On which sides of a plane an interval is.
-struct Sides {
-  float low_end, high_begin;   ///< the halves reach this far: the same plane, rounded outwards
-  std::uint8_t low_bits, high_bits;
-  std::uint8_t of(float lo, float hi) const {
-    return static_cast<std::uint8_t>((lo <= low_end ? low_bits : 0) | (hi >= high_begin ? high_bits : 0));
+/// Which of a cube's children a box meets, as bits.
+class TouchedChildren {
+ public:
+  explicit TouchedChildren(const Box& cube) : cube_(cube), middle_(cube.center()) {}
+  std::uint8_t operator()(const Box& box) const {
+    if (!box.intersects(cube_)) return 0;
+    return static_cast<std::uint8_t>(sides(0, box, 0x55, 0xaa) & sides(1, box, 0x33, 0xcc) & sides(2, box, 0x0f, 0xf0));
   }
+
+ private:
+  int sides(int a, const Box& box, int low, int high) const {
+    return (box.lo[a] <= middle_[a] ? low : 0) | (box.hi[a] >= middle_[a] ? high : 0);
+  }
+  const Box& cube_;
+  Vec3 middle_;
 };
 
 }  // namespace
@@ -100,12 +112,13 @@ void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candid
   const Ball ball = ball_around(box);
   const bool bounded = ball.radius < kInfinity;
   for (const std::uint32_t atom : candidates) {
-    if (!tree.bounds_of_atoms[atom].intersects(reach)) continue;
-    const std::uint32_t id = tree.atoms[atom].node;
+    const std::uint32_t id = tree.node_of_atom[atom];
     const CompiledNode& node = tree.nodes[id];
+    if (!tree.run_bounds[run_of(tree, node, atom)].intersects(reach)) continue;
     if (!bounded || node.warp != kNone) {
       list.add(atom, {});
     } else if (node.op == Op::kChain) {
+      if (!segment_support(tree.segment_ends(node, atom)).intersects(box)) continue;
       const Interval x = swept_ratio_interval(tree.segment_of(atom), ball);
       if (x.lo < kFar) list.add_segment(atom, id, x.lo, x.hi);
     } else {
@@ -126,8 +139,9 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
   }
   const double radius = glm::length(quarter) * (1 + 1e-9) + 1e-14 * (glm::length(middle) + glm::length(quarter));
   for (Ball& ball : balls) ball.radius = radius;
-  const FloatBox reach(cube), plane(Box{middle, middle});
-  const Sides x{plane.hi.x, plane.lo.x, 0x55, 0xaa}, y{plane.hi.y, plane.lo.y, 0x33, 0xcc}, z{plane.hi.z, plane.lo.z, 0x0f, 0xf0};
+  const TouchedChildren touched_by(cube);
+  std::uint32_t last_run = kNone;      // neighbours most often share one
+  std::uint8_t touched_by_run = 0;
 
   const std::size_t n = candidates.size();
   std::array<Listing, kChildren> lists{Listing(children[0], n), Listing(children[1], n), Listing(children[2], n),
@@ -141,16 +155,21 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
     const std::span<const std::uint32_t> block = candidates.subspan(begin, std::min(kBlock, candidates.size() - begin));
     std::size_t count = 0;
     for (std::size_t i = 0; i < block.size(); ++i) {
-      const FloatBox& box = tree.bounds_of_atoms[block[i]];
-      touched[i] = box.intersects(reach) ? x.of(box.lo.x, box.hi.x) & y.of(box.lo.y, box.hi.y) & z.of(box.lo.z, box.hi.z) : 0;
-      const CompiledNode& node = tree.nodes[tree.atoms[block[i]].node];
-      if (touched[i] != 0 && node.op == Op::kChain && node.warp == kNone) segments_[count++] = tree.segment_of(block[i]);
+      const CompiledNode& node = tree.node_of(block[i]);
+      if (const std::uint32_t run = run_of(tree, node, block[i]); run != last_run) {
+        last_run = run;
+        touched_by_run = touched_by(tree.run_bounds[run].box());
+      }
+      touched[i] = touched_by_run;
+      if (touched[i] == 0 || node.op != Op::kChain || node.warp != kNone) continue;
+      touched[i] &= touched_by(segment_support(tree.segment_ends(node, block[i])));
+      if (touched[i] != 0) segments_[count++] = tree.segment_of(block[i]);
     }
     bound_swept_ratios(segments_.data(), count, centers, radius, bounds_.data());
     const ChildBounds* ratio = bounds_.data();
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (touched[i] == 0) continue;
-      const std::uint32_t atom = block[i], id = tree.atoms[atom].node;
+      const std::uint32_t atom = block[i], id = tree.node_of_atom[atom];
       const CompiledNode& node = tree.nodes[id];
       const bool warped = node.warp != kNone, segment = !warped && node.op == Op::kChain;
       for (unsigned bits = touched[i]; bits != 0; bits &= bits - 1) {

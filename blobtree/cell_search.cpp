@@ -40,7 +40,7 @@ class CellSearch {
   bool stopped() const { return run_.cancelled() || (stop_ && stop_->load(std::memory_order_relaxed)); }
 
   void search() {
-    std::vector<std::uint32_t> all(tree_.atoms.size());
+    std::vector<std::uint32_t> all(tree_.atom_count());
     std::iota(all.begin(), all.end(), 0u);
     ActiveAtoms active;
     find_active(tree_, all, grid_.box({0, 0, 0}, grid_.levels), active);

@@ -141,12 +141,12 @@ void compile_shape(CompiledTree& tree, CompiledNode& compiled, const Node& node)
   std::visit(ShapeCompiler(tree, compiled), node);
 }
 
-Interval support_along(const CompiledTree& tree, std::uint32_t id, const Vec3& direction) {
-  const Atom& atom = tree.atoms[id];
-  const CompiledNode& node = tree.nodes[atom.node];
+Interval support_along(const CompiledTree& tree, std::uint32_t atom, const Vec3& direction) {
+  const CompiledNode& node = tree.node_of(atom);
   Interval bound;
   if (node.op == Op::kChain) {
-    const ChainNode &a = tree.chain_nodes[atom.element], &b = tree.chain_nodes[atom.element + 1];
+    const ChainNode* const ends = tree.segment_ends(node, atom);
+    const ChainNode &a = ends[0], &b = ends[1];
     bound = hull(around(glm::dot(a.position, direction), kSupportPerRadius * a.radius),
                  around(glm::dot(b.position, direction), kSupportPerRadius * b.radius));
   } else if (node.op == Op::kHalfSpace) {
@@ -161,6 +161,8 @@ Interval support_along(const CompiledTree& tree, std::uint32_t id, const Vec3& d
 }
 
 Box own_box(const CompiledTree& tree, std::uint32_t atom) {
+  const CompiledNode& node = tree.node_of(atom);
+  if (node.op == Op::kChain) return segment_support(tree.segment_ends(node, atom));
   Box box;
   for (int k = 0; k < 3; ++k) {
     Vec3 d(0.0);

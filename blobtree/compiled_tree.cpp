@@ -19,6 +19,16 @@ NativeAxis axis_of(const DiscSkeleton<double>& k) { return {k.center, k.normal};
 NativeAxis axis_of(const CircleSkeleton<double>& k) { return {k.center, k.normal}; }
 NativeAxis axis_of(const BoxSkeleton<double>& k) { return {k.center, k.world_from_box[2]}; }
 
+/// Turns v as the shortest rotation from one unit vector to another would.
+Vec3 transported(const Vec3& v, const Vec3& from, const Vec3& to) {
+  const Vec3 cross = glm::cross(from, to);
+  const double cosine = glm::dot(from, to);
+  Vec3 turned = v;
+  if (cosine > -1 + 1e-12) turned = v * cosine + glm::cross(cross, v) + cross * (glm::dot(cross, v) / (1 + cosine));
+  const Vec3 across = turned - glm::dot(turned, to) * to;
+  return glm::length(across) > 1e-12 ? glm::normalize(across) : any_normal(to);
+}
+
 }  // namespace
 
 void PrimitiveStore::add(const CompiledPrimitive& primitive) {
@@ -48,26 +58,69 @@ std::size_t PrimitiveStore::memory_bytes() const {
   return bytes_of(entries_) + std::apply([](const auto&... array) { return (bytes_of(array) + ...); }, shapes_);
 }
 
+Vec3 AtomCoordinates::u_direction(const Vec3& axis) const {
+  const Vec3 from = any_normal(axis);
+  return std::cos(turn) * from + std::sin(turn) * glm::cross(axis, from);
+}
+
+AtomCoordinates AtomCoordinates::at(double v, const Vec3& u, const Vec3& axis) {
+  const Vec3 from = any_normal(axis);
+  return {v, std::atan2(glm::dot(u, glm::cross(axis, from)), glm::dot(u, from))};
+}
+
+AtomCoordinates AtomCoordinates::carried(const SweptSegment<double>& from, const SweptSegment<double>& to) const {
+  const double next = v + from.end;
+  if (!(from.end > 0) || !(to.end > 0)) return {next, turn};
+  return at(next, transported(u_direction(from.axis), from.axis, to.axis), to.axis);
+}
+
+AtomCoordinates CompiledTree::coordinates_of(std::uint32_t atom) const {
+  const std::uint32_t run = run_of(atom);
+  AtomCoordinates at = run_begin[run];
+  for (std::uint32_t a = run_first_atom[run]; a < atom; ++a) at = at.carried(segment_of(a), segment_of(a + 1));
+  return at;
+}
+
 SweptSegment<double> CompiledTree::segment_of(std::uint32_t atom) const {
-  const ChainNode &from = chain_nodes[atoms[atom].element], &to = chain_nodes[atoms[atom].element + 1];
+  const ChainNode* const ends = segment_ends(node_of(atom), atom);
+  const ChainNode &from = ends[0], &to = ends[1];
   const Vec3 d = to.position - from.position;
   const double length = glm::length(d);
   if (!(length > 0)) return {from.position, {0, 0, 1}, 0, 0, std::max(from.radius, to.radius), 0};  // the thicker ball
   return {from.position, d / length, 0, length, from.radius, (to.radius - from.radius) / length};
 }
 
+Box segment_support(const ChainNode* ends) {
+  Box box;
+  for (int k = 0; k < 2; ++k) {
+    const double reach = kSupportPerRadius * ends[k].radius;
+    box.extend(Box{ends[k].position - reach, ends[k].position + reach});
+  }
+  const Vec3 slack = 1e-9 * (box.hi - box.lo) + 1e-12 * (glm::abs(box.lo) + glm::abs(box.hi));
+  return {box.lo - slack, box.hi + slack};
+}
+
+Box CompiledTree::bounds_of(std::uint32_t atom) const {
+  const CompiledNode& node = node_of(atom);
+  const Box box = run_bounds[run_of(atom)].box();
+  if (node.op != Op::kChain || node.warp != kNone) return box;
+  const Box own = Box::intersection(box, segment_support(segment_ends(node, atom)));
+  return own.empty() ? Box{} : own;
+}
+
 double CompiledTree::radius_of(std::uint32_t atom) const {
-  const CompiledNode& node = nodes[atoms[atom].node];
+  const CompiledNode& node = node_of(atom);
   if (node.op == Op::kHalfSpace) return kInfinity;
   if (node.op == Op::kPrimitive) return primitives.radius(node.payload);
-  const ChainNode &from = chain_nodes[atoms[atom].element], &to = chain_nodes[atoms[atom].element + 1];
-  return from.position == to.position ? std::max(from.radius, to.radius) : std::min(from.radius, to.radius);
+  const ChainNode* const ends = segment_ends(node, atom);
+  return ends[0].position == ends[1].position ? std::max(ends[0].radius, ends[1].radius) : std::min(ends[0].radius, ends[1].radius);
 }
 
 std::size_t CompiledTree::memory_bytes() const {
   return sizeof(*this) + bytes_of(nodes) + bytes_of(children) + primitives.memory_bytes() + bytes_of(half_spaces) + bytes_of(chains) +
-         bytes_of(chain_nodes) + bytes_of(blends) + bytes_of(laterals) + bytes_of(numbers) + bytes_of(warps) + bytes_of(atoms) +
-         bytes_of(bounds_of_atoms) + bytes_of(coordinates) + bytes_of(owners) + index.memory_bytes() + ancestors.memory_bytes();
+         bytes_of(chain_nodes) + bytes_of(blends) + bytes_of(laterals) + bytes_of(numbers) + bytes_of(warps) + bytes_of(leaves) +
+         bytes_of(node_of_atom) + bytes_of(run_bounds) + bytes_of(run_begin) + bytes_of(run_first_atom) + index.memory_bytes() +
+         ancestors.memory_bytes();
 }
 
 Interval primitive_interval(const CompiledPrimitive& p, const Ball& ball) {

@@ -80,7 +80,7 @@ struct CompiledNode {
   bool can_be_negative : 1 = false;
   std::uint32_t depth = 0;
   std::uint32_t payload = 0;       ///< index into the array of its op
-  std::uint32_t first_child = 0;   ///< into children; of a primitive, into owners
+  std::uint32_t first_child = 0;   ///< into children; of a primitive, into leaves
   std::uint32_t child_count = 0;
   std::uint32_t first_atom = 0;
   std::uint32_t warp = kNone;      ///< nearest warp above: the node's space
@@ -98,21 +98,24 @@ struct CompiledWarp {
   Interval range;                  ///< of its child's values anywhere
 };
 
-struct Atom {
-  std::uint32_t node = 0;
-  std::uint32_t element = 0;       ///< of a chain: the first node of the segment, into chain_nodes
-};
-
 /// Native coordinates at the begin of an atom (field.md section 7).
 struct AtomCoordinates {
   double v = 0;
   double turn = 0;                 ///< radians about the axis from any_normal(axis) to the direction in which u = 0
+
+  /// As a direction, and back; axis is the atom's.
+  Vec3 u_direction(const Vec3& axis) const;
+  static AtomCoordinates at(double v, const Vec3& u_direction, const Vec3& axis);
+  /// Carried along one segment to the next; one without length has no direction to be carried along.
+  AtomCoordinates carried(const SweptSegment<double>& from, const SweptSegment<double>& to) const;
 };
 
-/// Who a primitive belongs to.
-struct Owner {
+/// What is kept of a primitive beside its shape.
+struct Leaf {
   std::uint32_t branch = 0, order = 0;
+  std::uint32_t first_run = 0;     ///< its atoms are in runs of kRunAtoms, the last one shorter
 };
+inline constexpr std::uint32_t kRunAtoms = 8;
 
 struct CompiledTree : std::enable_shared_from_this<CompiledTree> {
   std::vector<CompiledNode> nodes;
@@ -125,24 +128,44 @@ struct CompiledTree : std::enable_shared_from_this<CompiledTree> {
   std::vector<Lateral> laterals;
   std::vector<double> numbers;     ///< exponents and factors
   std::vector<CompiledWarp> warps;
-  std::vector<Atom> atoms;
-  std::vector<FloatBox> bounds_of_atoms;   ///< world boxes outside of which they play no part
-  std::vector<AtomCoordinates> coordinates;
-  std::vector<Owner> owners;       ///< of primitives
+  std::vector<Leaf> leaves;        ///< primitives in depth-first order
+  std::vector<std::uint32_t> node_of_atom;
+  std::vector<FloatBox> run_bounds;             ///< world boxes outside of which the atoms of a run play no part
+  std::vector<AtomCoordinates> run_begin;       ///< of its first atom
+  std::vector<std::uint32_t> run_first_atom;
   std::uint32_t root = 0;
   Box bounds;
-  BoxIndex index;                  ///< over atom bounds
-  AncestorIndex ancestors;         ///< lowest common ancestors of atoms
+  BoxIndex index;                  ///< over run_bounds
+  AncestorIndex ancestors;         ///< lowest common ancestors of leaves
 
+  std::size_t atom_count() const { return node_of_atom.size(); }
+  const CompiledNode& node_of(std::uint32_t atom) const { return nodes[node_of_atom[atom]]; }
+  const Leaf& leaf_of(const CompiledNode& primitive) const { return leaves[primitive.first_child]; }
+  std::uint32_t run_of(std::uint32_t atom) const {
+    const CompiledNode& node = node_of(atom);
+    return leaf_of(node).first_run + (atom - node.first_atom) / kRunAtoms;
+  }
+  std::uint32_t end_atom_of_run(std::uint32_t run) const {
+    return run + 1 < run_first_atom.size() ? run_first_atom[run + 1] : static_cast<std::uint32_t>(atom_count());
+  }
+  /// Lowest common ancestor of two atoms, a < b; of two segments of one chain it is the chain.
+  std::uint32_t common_ancestor(std::uint32_t a, std::uint32_t b) const {
+    const std::uint32_t node = node_of_atom[a];
+    return node == node_of_atom[b] ? node : ancestors.common(nodes[node].first_child, node_of(b).first_child);
+  }
+  /// The two nodes of a chain's segment; `node` is the atom's.
+  const ChainNode* segment_ends(const CompiledNode& node, std::uint32_t atom) const {
+    return &chain_nodes[chains[node.payload].first_node + (atom - node.first_atom)];
+  }
   /// World box outside of which an atom plays no part.
-  Box bounds_of(std::uint32_t atom) const { return bounds_of_atoms[atom].box(); }
+  Box bounds_of(std::uint32_t atom) const;
+  AtomCoordinates coordinates_of(std::uint32_t atom) const;
   /// Smallest surface radius along an atom, metres; infinite for a half-space.
   double radius_of(std::uint32_t atom) const;
   /// The shape of a chain's atom, and of a primitive node.
   SweptSegment<double> segment_of(std::uint32_t atom) const;
   CompiledPrimitive primitive_of(const CompiledNode& node) const { return primitives[node.payload]; }
   double chain_strength_of(const CompiledNode& node) const { return chains[node.payload].strength; }
-  const Owner& owner_of(const CompiledNode& primitive) const { return owners[primitive.first_child]; }
   /// k counts from 0.
   const Lateral& lateral_of(const CompiledNode& fork, std::size_t k) const {
     return laterals[blends[fork.payload].first_lateral + k];
@@ -163,6 +186,9 @@ struct NativeAxis {
 };
 NativeAxis native_axis(const CompiledPrimitive& primitive);
 NativeAxis native_axis(const SweptSegment<double>& segment);
+
+/// Support of a chain's segment, in the chain's own space; `ends` as from segment_ends.
+Box segment_support(const ChainNode* ends);
 Vec3 any_normal(const Vec3& axis);
 
 }  // namespace cambium

@@ -122,11 +122,11 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
     if (!(weight > 0)) continue;
     Contribution c;
     c.weight = weight;
-    c.branch = tree.owner_of(node).branch;
-    c.order = tree.owner_of(node).order;
+    c.branch = tree.leaf_of(node).branch;
+    c.order = tree.leaf_of(node).order;
     const Vec3& q = s.points[in.frame];
     const auto place = [&](std::uint32_t atom, const NativeAxis& native, double along) {
-      const AtomCoordinates& at = tree.coordinates[atom];
+      const AtomCoordinates at = tree.coordinates_of(atom);
       const Vec3 from = q - native.origin;
       const Vec3 normal = any_normal(native.axis);
       c.v = at.v + along;

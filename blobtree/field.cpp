@@ -32,13 +32,18 @@ std::size_t PrunedField::memory_bytes() const {
 Field::Field(const BlobTree& tree) : tree_(std::make_shared<const CompiledTree>(compile(tree))) {}
 
 const Box& Field::bounds() const { return tree_->bounds; }
-std::size_t Field::atom_count() const { return tree_->atoms.size(); }
+std::size_t Field::atom_count() const { return tree_->atom_count(); }
 double Field::atom_radius(std::uint32_t atom) const { return tree_->radius_of(atom); }
 Box Field::atom_bounds(std::uint32_t atom) const { return tree_->bounds_of(atom); }
 
 std::size_t Field::memory_bytes() const { return tree_->memory_bytes(); }
 
-ActiveSet Field::active(const Box& box) const { return narrow({tree_->index.query(tree_->bounds_of_atoms, FloatBox(box))}, box); }
+ActiveSet Field::active(const Box& box) const {
+  ActiveSet near;
+  for (const std::uint32_t run : tree_->index.query(tree_->run_bounds, FloatBox(box)))
+    for (std::uint32_t atom = tree_->run_first_atom[run]; atom < tree_->end_atom_of_run(run); ++atom) near.atoms.push_back(atom);
+  return narrow(near, box);
+}
 
 ActiveSet Field::narrow(const ActiveSet& from, const Box& box) const {
   ActiveAtoms active;
@@ -55,7 +60,7 @@ PrunedField Field::prune(const Box& box) const { return prune(active(box), box);
 
 PrunedField Field::whole() const {
   ActiveSet all;
-  all.atoms.resize(tree_->atoms.size());
+  all.atoms.resize(tree_->atom_count());
   std::iota(all.atoms.begin(), all.atoms.end(), 0u);
   return prune(all, Box{Vec3(-kInfinity), Vec3(kInfinity)});
 }

@@ -29,7 +29,7 @@ const Tape& TapeBuilder::build(std::span<const std::uint32_t> atoms) {
   tape_ = {};
   for (std::size_t i = 0; i < atoms.size(); ++i) {
     Value current = leaf(atoms[i]);
-    const std::uint32_t next = i + 1 < atoms.size() ? tree_.ancestors.common(atoms[i], atoms[i + 1]) : kNone;
+    const std::uint32_t next = i + 1 < atoms.size() ? tree_.common_ancestor(atoms[i], atoms[i + 1]) : kNone;
     for (;;) {
       const bool has_open = !open_.empty();
       const std::uint32_t top = has_open ? open_.back().node : kNone;
@@ -59,13 +59,13 @@ const Tape& TapeBuilder::build(std::span<const std::uint32_t> atoms) {
 }
 
 TapeBuilder::Value TapeBuilder::leaf(std::uint32_t atom) {
-  const Atom& a = tree_.atoms[atom];
-  const CompiledNode& n = tree_.nodes[a.node];
+  const std::uint32_t node = tree_.node_of_atom[atom];
+  const CompiledNode& n = tree_.nodes[node];
   tape_.smallest_radius_ = std::min(tape_.smallest_radius_, tree_.radius_of(atom));
-  if (n.op == Op::kChain) return {a.node, atom, n.can_be_negative, true};
-  emit(n.op, a.node, n.warp, false, atom, 1);
+  if (n.op == Op::kChain) return {node, atom, n.can_be_negative, true};
+  emit(n.op, node, n.warp, false, atom, 1);
   tape_.stack_size_ = std::max(tape_.stack_size_, ++depth_);
-  return {a.node, atom, n.can_be_negative, false};
+  return {node, atom, n.can_be_negative, false};
 }
 
 TapeBuilder::Value TapeBuilder::climb(Value value, std::uint32_t below) {

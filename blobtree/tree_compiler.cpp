@@ -7,22 +7,11 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <optional>
 
 namespace cambium {
 namespace {
 
 const Box kEverywhere{Vec3(-kInfinity), Vec3(kInfinity)};
-
-/// Turns v as the shortest rotation from one unit vector to another would.
-Vec3 transported(const Vec3& v, const Vec3& from, const Vec3& to) {
-  const Vec3 cross = glm::cross(from, to);
-  const double cosine = glm::dot(from, to);
-  Vec3 turned = v;
-  if (cosine > -1 + 1e-12) turned = v * cosine + glm::cross(cross, v) + cross * (glm::dot(cross, v) / (1 + cosine));
-  const Vec3 across = turned - glm::dot(turned, to) * to;
-  return glm::length(across) > 1e-12 ? glm::normalize(across) : any_normal(to);
-}
 
 class TreeCompiler {
  public:
@@ -127,36 +116,31 @@ class TreeCompiler {
   void add_atoms(NodeId id) {
     CompiledNode& n = node(id);
     const Attributes& given = authored_.attributes(id);
-    n.first_child = static_cast<std::uint32_t>(tree_.owners.size());
-    tree_.owners.push_back({given.branch, given.order});
+    n.first_child = static_cast<std::uint32_t>(tree_.leaves.size());
+    tree_.leaves.push_back({given.branch, given.order, static_cast<std::uint32_t>(tree_.run_begin.size())});
     const auto begin_with = [&](const Vec3& axis) {
       const Vec3 across = given.u_direction - glm::dot(given.u_direction, axis) * axis;
-      return glm::length(across) > 1e-9 ? glm::normalize(across) : any_normal(axis);
+      return AtomCoordinates::at(given.v_begin, glm::length(across) > 1e-9 ? glm::normalize(across) : any_normal(axis), axis);
     };
-    const auto add = [&](std::uint32_t element, double v, const Vec3& axis, const Vec3& u) {
-      const Vec3 from = any_normal(axis);
-      tree_.atoms.push_back({id, element});
-      tree_.coordinates.push_back({v, std::atan2(glm::dot(u, glm::cross(axis, from)), glm::dot(u, from))});
+    const auto begin_run = [&](std::uint32_t atom, const AtomCoordinates& at) {
+      tree_.run_first_atom.push_back(atom);
+      tree_.run_begin.push_back(at);
     };
     if (n.op != Op::kChain) {
-      const Vec3 axis = n.op == Op::kHalfSpace ? Vec3(0, 0, 1) : native_axis(tree_.primitive_of(n)).axis;
-      add(0, given.v_begin, axis, begin_with(axis));
+      begin_run(n.first_atom, begin_with(n.op == Op::kHalfSpace ? Vec3(0, 0, 1) : native_axis(tree_.primitive_of(n)).axis));
+      tree_.node_of_atom.push_back(id);
       return;
     }
-    const CompiledChain& chain = tree_.chains[n.payload];
-    double v = given.v_begin;
-    std::optional<Vec3> axis;
-    Vec3 u(0.0);
-    for (std::uint32_t element = chain.first_node; element + 1 < chain.first_node + chain.node_count; ++element) {
-      tree_.atoms.push_back({id, element});
-      const SweptSegment<double> segment = tree_.segment_of(static_cast<std::uint32_t>(tree_.atoms.size() - 1));
-      tree_.atoms.pop_back();
-      if (segment.end > 0) {   // one without length has no direction to be carried along
-        u = axis ? transported(u, *axis, segment.axis) : begin_with(segment.axis);
-        axis = segment.axis;
-      }
-      add(element, v, segment.axis, axis ? u : begin_with(segment.axis));
-      v += segment.end;
+    const std::uint32_t segments = tree_.chains[n.payload].node_count - 1;
+    SweptSegment<double> last;
+    AtomCoordinates at;
+    for (std::uint32_t k = 0; k < segments; ++k) {
+      const auto atom = static_cast<std::uint32_t>(tree_.atom_count());
+      tree_.node_of_atom.push_back(id);
+      const SweptSegment<double> segment = tree_.segment_of(atom);
+      at = k == 0 ? begin_with(segment.axis) : at.carried(last, segment);
+      last = segment;
+      if (k % kRunAtoms == 0) begin_run(atom, at);
     }
   }
 
@@ -174,16 +158,13 @@ class TreeCompiler {
     };
     const auto enter = [&](NodeId id) {
       CompiledNode& n = node(id);
-      n.first_atom = static_cast<std::uint32_t>(tree_.atoms.size());
+      n.first_atom = static_cast<std::uint32_t>(tree_.atom_count());
       if (n.child_count > 0) return;
-      add_atoms(id);
-      for (std::size_t i = n.first_atom; i < tree_.atoms.size(); ++i) {
-        if (i > 0) {
-          const NodeId common = i > n.first_atom ? id : lowest;
-          shared.push_back(common);
-          shared_depth.push_back(node(common).depth);
-        }
+      if (!tree_.leaves.empty()) {
+        shared.push_back(lowest);
+        shared_depth.push_back(node(lowest).depth);
       }
+      add_atoms(id);
       lowest = kNone;
     };
     enter(tree_.root);
@@ -191,7 +172,7 @@ class TreeCompiler {
       Visit& top = stack.back();
       CompiledNode& n = node(top.id);
       if (top.next == n.child_count) {
-        end_atom_[top.id] = static_cast<std::uint32_t>(tree_.atoms.size());
+        end_atom_[top.id] = static_cast<std::uint32_t>(tree_.atom_count());
         stack.pop_back();
         if (!stack.empty()) note(stack.back().id);
         continue;
@@ -249,7 +230,7 @@ class TreeCompiler {
   /// support_[id]: outside of it the node is 0; in the space of its parent (a warp's own box is already warped).
   void bound_supports() {
     support_.resize(count_);
-    atom_boxes_.resize(tree_.atoms.size());
+    atom_boxes_.resize(tree_.atom_count());
     tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(atom_boxes_.size()), 1024), [&](const auto& part) {
       for (std::uint32_t a = part.begin(); a != part.end(); ++a) atom_boxes_[a] = own_box(tree_, a);
     });
@@ -304,7 +285,7 @@ class TreeCompiler {
         lifted_boxes_[a] = box = kEverywhere;
         continue;
       }
-      const Extents e = node(tree_.atoms[a].node).warp == id ? extents_of(a, inside, frame) : extents_of(inside, frame);
+      const Extents e = node(tree_.node_of_atom[a]).warp == id ? extents_of(a, inside, frame) : extents_of(inside, frame);
       add(e);
       lifted_boxes_[a] = warped_box(warp, e);
     }
@@ -329,7 +310,7 @@ class TreeCompiler {
       }
     }
     const auto bound = [&](std::uint32_t a) {
-      const NodeId owner = tree_.atoms[a].node;
+      const NodeId owner = tree_.node_of_atom[a];
       Box box = Box::intersection(atom_boxes_[a], clip[owner]);
       bool innermost = true;
       for (std::uint32_t w = node(owner).warp; w != kNone && !box.empty(); w = node(w).warp, innermost = false) {
@@ -344,11 +325,12 @@ class TreeCompiler {
       }
       return FloatBox(box);
     };
-    tree_.bounds_of_atoms.resize(tree_.atoms.size());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(tree_.atoms.size()), 1024), [&](const auto& part) {
-      for (std::uint32_t a = part.begin(); a != part.end(); ++a) tree_.bounds_of_atoms[a] = bound(a);
+    tree_.run_bounds.resize(tree_.run_begin.size());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(tree_.run_bounds.size()), 256), [&](const auto& part) {
+      for (std::uint32_t run = part.begin(); run != part.end(); ++run)
+        for (std::uint32_t a = tree_.run_first_atom[run]; a < tree_.end_atom_of_run(run); ++a) tree_.run_bounds[run].extend(bound(a));
     });
-    tree_.index = BoxIndex(tree_.bounds_of_atoms);
+    tree_.index = BoxIndex(tree_.run_bounds);
   }
 
   void shrink() {
@@ -359,9 +341,10 @@ class TreeCompiler {
     tree_.blends.shrink_to_fit();
     tree_.laterals.shrink_to_fit();
     tree_.warps.shrink_to_fit();
-    tree_.atoms.shrink_to_fit();
-    tree_.coordinates.shrink_to_fit();
-    tree_.owners.shrink_to_fit();
+    tree_.leaves.shrink_to_fit();
+    tree_.node_of_atom.shrink_to_fit();
+    tree_.run_begin.shrink_to_fit();
+    tree_.run_first_atom.shrink_to_fit();
   }
 
   const BlobTree& authored_;
