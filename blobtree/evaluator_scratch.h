@@ -6,7 +6,7 @@
 #include "blobtree/interpreter.h"
 #include "blobtree/surface_traits.h"
 
-#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -16,17 +16,17 @@ namespace cambium {
 class GatheredShapes {
  public:
   void gather(const CompiledTree& tree, const Tape& tape) {
-    if (tree_.get() == &tree && std::ranges::equal(instructions_, tape.instructions()) && std::ranges::equal(slots_, tape.slots())) return;
+    if (tree_.get() == &tree && tape_.same_arrays(tape)) return;
     if (tree_.get() != &tree) tree_ = tree.shared_from_this();   // while it lives, no other tree has its address
-    instructions_.assign(tape.instructions().begin(), tape.instructions().end());
-    slots_.assign(tape.slots().begin(), tape.slots().end());
-    segments_.resize(slots_.size());
-    place_.resize(instructions_.size());
+    copy_.resize(tape.array_bytes());
+    tape_ = tape.copied_to(copy_.data());
+    segments_.resize(tape.slots().size());
+    place_.resize(tape.instructions().size());
     primitives_.clear();
-    for (std::size_t i = 0; i < instructions_.size(); ++i) {
-      const Instruction& in = instructions_[i];
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      const Instruction& in = tape.instructions()[i];
       if (in.op == Op::kChain) {
-        for (std::uint32_t k = in.first; k < in.first + in.count; ++k) segments_[k] = tree.segment_of(slots_[k]);
+        for (std::uint32_t k = in.first; k < in.first + in.count; ++k) segments_[k] = tree.segment_of(tape.slots()[k]);
       } else if (in.op == Op::kPrimitive) {
         place_[i] = static_cast<std::uint32_t>(primitives_.size());
         primitives_.push_back(tree.primitive_of(tree.nodes[in.node]));
@@ -40,8 +40,9 @@ class GatheredShapes {
 
  private:
   std::shared_ptr<const CompiledTree> tree_;
-  std::vector<Instruction> instructions_;
-  std::vector<std::uint32_t> slots_, place_;
+  std::vector<std::byte> copy_;   // of the tape's arrays: its own may be gone, and others be in their place
+  Tape tape_;
+  std::vector<std::uint32_t> place_;
   std::vector<SweptSegment<double>> segments_;
   std::vector<CompiledPrimitive> primitives_;
 };

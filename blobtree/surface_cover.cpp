@@ -26,7 +26,7 @@ class SurfaceCover::TapeStore {
     for (const std::uint32_t word : tape.slots()) hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
     for (const Instruction& in : tape.instructions()) hash = (hash ^ in.first ^ std::uint64_t{in.node} << 32) * 0x9e3779b97f4a7c15u;
     const Tape*& lately = lately_[hash >> (64 - kLatelyBits)];
-    if (!lately || !(*lately == tape)) lately = keep(tape);
+    if (!lately || !lately->same_arrays(tape)) lately = keep(tape);
     return lately;
   }
   void finish() { lately_ = {}; }

@@ -13,10 +13,10 @@ Tape Tape::copied_to(std::byte* memory) const {
   return copy;
 }
 
-bool Tape::operator==(const Tape& other) const {
+bool Tape::same_arrays(const Tape& other) const {
   return instruction_count_ == other.instruction_count_ && slot_count_ == other.slot_count_ &&
-         frame_word_count_ == other.frame_word_count_ && std::ranges::equal(instructions(), other.instructions()) &&
-         std::ranges::equal(slots(), other.slots()) && std::ranges::equal(frames(), other.frames());
+         frame_word_count_ == other.frame_word_count_ &&
+         (empty() || std::memcmp(instructions_, other.instructions_, array_bytes()) == 0);
 }
 
 const Tape& TapeBuilder::build(std::span<const std::uint32_t> atoms) {

@@ -23,8 +23,8 @@ struct Instruction {
   std::uint32_t node = 0;          ///< node in the compiled tree
   std::uint32_t first = 0;         ///< first of `count` entries in slots; of a primitive, its atom
   std::uint32_t count = 0;
-  bool operator==(const Instruction&) const = default;
 };
+static_assert(sizeof(Instruction) == 16);   // nothing between its members: tapes are compared as bytes
 
 /// A tape does not depend on the box that it was made for, only on the atoms active there: neighbouring cells share it.
 /// Its arrays lie in one block of memory that belongs to whoever made it: instructions, slots, frames.
@@ -49,7 +49,8 @@ class Tape {
   }
   /// The same tape with its arrays copied to `memory`, which is aligned for an Instruction and holds array_bytes().
   Tape copied_to(std::byte* memory) const;
-  bool operator==(const Tape& other) const;   ///< of the arrays' contents, which say all
+  /// Whether the contents are the same; of one tree, so are the tapes then.
+  bool same_arrays(const Tape& other) const;
 
  private:
   friend class TapeBuilder;
