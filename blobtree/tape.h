@@ -23,6 +23,7 @@ struct Instruction {
   std::uint32_t node = 0;          ///< node in the compiled tree
   std::uint32_t first = 0;         ///< first of `count` entries in slots; of a primitive, its atom
   std::uint32_t count = 0;
+  bool operator==(const Instruction&) const = default;
 };
 static_assert(sizeof(Instruction) == 16);   // nothing between its members: tapes are compared as bytes
 
