@@ -53,7 +53,7 @@ decltype(auto) with_type(std::size_t kind, Act&& act) {
 
 }  // namespace
 
-// ---- the store: in --------------------------------------------------------------------------------------------------------
+// ---- the store: in --------------------------------------------------------------------------------------------
 KeptRange NodeStore::pooled(const std::vector<NodeId>& children) {
   check_room("children", children_.size(), children.size());
   const KeptRange range{static_cast<std::uint32_t>(children_.size()), static_cast<std::uint32_t>(children.size())};
@@ -92,7 +92,7 @@ void NodeStore::append(Node&& node) {
       node);
 }
 
-// ---- the store: out -------------------------------------------------------------------------------------------------------
+// ---- the store: out -------------------------------------------------------------------------------------------
 template <class T>
 T NodeStore::unpacked(const typename KeptAs<T>::type& kept) const {
   const auto list = [](auto span) { return std::vector(span.begin(), span.end()); };
@@ -147,7 +147,7 @@ std::span<const Lateral> NodeStore::laterals(NodeId id) const {
   return laterals(std::get<kNodeKind<Fork>>(arrays_)[places_[id]]);
 }
 
-// ---- the store: memory ----------------------------------------------------------------------------------------------------
+// ---- the store: memory ----------------------------------------------------------------------------------------
 void NodeStore::shrink_to_fit() {
   std::apply([](auto&... array) { (array.shrink_to_fit(), ...); }, arrays_);
   kinds_.shrink_to_fit();

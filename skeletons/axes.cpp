@@ -32,8 +32,13 @@ struct ChildLists {
   }
 };
 
-std::vector<SkeletonNode> finite_nodes(const Skeleton& skeleton) {
-  std::vector<SkeletonNode> nodes = skeleton.nodes;
+bool all_finite(const std::vector<SkeletonNode>& nodes) {
+  return std::all_of(nodes.begin(), nodes.end(), [](const SkeletonNode& node) {
+    return finite(node.position) && std::isfinite(node.radius) && (!node.base_radius || std::isfinite(*node.base_radius));
+  });
+}
+
+std::vector<SkeletonNode> with_finite_numbers(std::vector<SkeletonNode> nodes) {
   for (SkeletonNode& node : nodes) {
     if (!finite(node.position)) node.position = node.parent >= 0 ? nodes[node.parent].position : Vec3(0.0);
     if (!std::isfinite(node.radius)) node.radius = node.parent >= 0 ? nodes[node.parent].radius : 0;
@@ -65,31 +70,38 @@ std::int64_t continuation(const std::vector<SkeletonNode>& nodes, const ChildLis
 }
 
 /// Appends the internode to `node`. A step in radius at its base becomes a taper over the internode, or is kept.
-void append_internode(Axis& axis, const SkeletonNode& node, bool first_of_lateral, RadiusSteps steps,
-                     std::size_t& merged) {
-  const AxisNode last = axis.nodes.back();
+void append_internode(std::vector<AxisNode>& path, const SkeletonNode& node, bool first_of_lateral, RadiusSteps steps,
+                      std::size_t& merged) {
+  const AxisNode last = path.back();
   const double length = glm::distance(last.position, node.position);
   if (length <= kCoincident * std::max(last.radius, node.radius)) {
     ++merged;
     return;
   }
   const bool step = !first_of_lateral && node.base_radius && *node.base_radius < 0.98 * last.radius;
-  axis.nodes.push_back({node.position, node.radius, step && steps == RadiusSteps::kKeep ? *node.base_radius : 0});
+  path.push_back({node.position, node.radius, step && steps == RadiusSteps::kKeep ? *node.base_radius : 0});
 }
 
 }  // namespace
 
 AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t* merged) {
   struct Start { std::int32_t parent; AxisPlace attach; std::uint32_t from, first; };
-  const std::vector<SkeletonNode> nodes = finite_nodes(skeleton);
+  std::vector<SkeletonNode> repaired;  // a skeleton is large: copied only where there is something to repair
+  if (!all_finite(skeleton.nodes)) repaired = with_finite_numbers(skeleton.nodes);
+  const std::vector<SkeletonNode>& nodes = repaired.empty() ? skeleton.nodes : repaired;
   const ChildLists lists(nodes);
+  std::size_t tips = 0;  // every axis ends in one
+  for (std::size_t i = 0; i < nodes.size(); ++i) tips += lists.first[i] == lists.first[i + 1] ? 1 : 0;
   std::size_t merged_here = 0;
   std::vector<Start> starts;  // breadth first: worked off from the front
+  starts.reserve(tips);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes[i].parent < 0)
       starts.push_back({-1, {}, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i)});
 
   AxisTree tree;
+  tree.axes.reserve(tips);
+  std::vector<AxisNode> path;
   for (std::size_t s = 0; s < starts.size(); ++s) {
     const Start start = starts[s];
     Axis axis;
@@ -98,21 +110,23 @@ AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t
     axis.attach = start.attach;
     axis.order = start.parent < 0 ? 0 : tree.axes[start.parent].order + 1;
     const SkeletonNode& head = nodes[start.first];
-    axis.nodes.push_back({nodes[start.from].position, head.base_radius.value_or(head.radius)});
+    path.clear();
+    path.push_back({nodes[start.from].position, head.base_radius.value_or(head.radius)});
     std::uint32_t at = start.first;
-    if (start.parent >= 0) append_internode(axis, head, true, steps, merged_here);
+    if (start.parent >= 0) append_internode(path, head, true, steps, merged_here);
     Vec3 direction = unit_or(nodes[at].position - nodes[start.from].position, Vec3(0, 0, 1));
     while (true) {
       const std::int64_t next = continuation(nodes, lists, at, direction);
-      const auto here = static_cast<std::uint32_t>(axis.nodes.size() - 1);
+      const auto here = static_cast<std::uint32_t>(path.size() - 1);
       const AxisPlace place = here == 0 ? AxisPlace{0, 0} : AxisPlace{here - 1, 1};
       for (std::uint32_t k = lists.first[at]; k < lists.first[at + 1]; ++k)
         if (lists.child[k] != next) starts.push_back({static_cast<std::int32_t>(s), place, at, lists.child[k]});
       if (next < 0) break;
       direction = unit_or(nodes[next].position - nodes[at].position, direction);
-      append_internode(axis, nodes[next], false, steps, merged_here);
+      append_internode(path, nodes[next], false, steps, merged_here);
       at = static_cast<std::uint32_t>(next);
     }
+    axis.nodes.assign(path.begin(), path.end());
     tree.axes.push_back(std::move(axis));
   }
   tree.branch_count = static_cast<std::uint32_t>(tree.axes.size());
@@ -135,11 +149,14 @@ void remove_axes(AxisTree& tree, std::vector<bool> marked) {
   tree.axes.resize(kept);
 }
 
-std::vector<std::vector<std::uint32_t>> laterals_of(const AxisTree& tree) {
-  std::vector<std::vector<std::uint32_t>> laterals(tree.axes.size());
+Laterals::Laterals(const AxisTree& tree) : first_(tree.axes.size() + 1, 0) {
+  for (const Axis& axis : tree.axes)
+    if (axis.parent >= 0) ++first_[axis.parent + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  borne_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t i = 0; i < tree.axes.size(); ++i)
-    if (tree.axes[i].parent >= 0) laterals[tree.axes[i].parent].push_back(static_cast<std::uint32_t>(i));
-  return laterals;
+    if (tree.axes[i].parent >= 0) borne_[next[tree.axes[i].parent]++] = static_cast<std::uint32_t>(i);
 }
 
 Vec3 position_at(const Axis& axis, const AxisPlace& place) {
@@ -172,6 +189,13 @@ std::vector<double> lengths_along(const Axis& axis) {
   for (std::size_t i = 1; i < lengths.size(); ++i)
     lengths[i] = lengths[i - 1] + glm::distance(axis.nodes[i - 1].position, axis.nodes[i].position);
   return lengths;
+}
+
+double length_of(const Axis& axis) {
+  double length = 0;
+  for (std::size_t i = 1; i < axis.nodes.size(); ++i)
+    length += glm::distance(axis.nodes[i - 1].position, axis.nodes[i].position);
+  return length;
 }
 
 AxisPlace place_at_length(const std::vector<double>& lengths, double along) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cambium {
@@ -52,8 +53,17 @@ struct AxisTree {
 /// Takes away the marked axes and all that they bear; ids stay.
 void remove_axes(AxisTree& tree, std::vector<bool> marked);
 
-/// For every axis the indices of the axes that it bears, ascending.
-std::vector<std::vector<std::uint32_t>> laterals_of(const AxisTree& tree);
+/// For every axis the indices of the axes that it bears, ascending: laterals[i] is a span. Cost: linear, in two arrays.
+class Laterals {
+ public:
+  explicit Laterals(const AxisTree& tree);
+  std::span<const std::uint32_t> operator[](std::size_t axis) const {
+    return {borne_.data() + first_[axis], first_[axis + 1] - first_[axis]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_, borne_;
+};
 
 /// The child that continues an axis is the unbracketed one (`lateral` false), else the thickest, else the straightest, else
 /// the first. Nodes that are not finite take their parent's place; coincident neighbours are merged (their number is
@@ -66,6 +76,8 @@ double radius_at(const Axis& axis, const AxisPlace& place);
 Vec3 tangent_at(const Axis& axis, const AxisPlace& place);
 /// Metres from the first node to each node.
 std::vector<double> lengths_along(const Axis& axis);
+/// The last of them.
+double length_of(const Axis& axis);
 AxisPlace place_at_length(const std::vector<double>& lengths, double along);
 /// The place nearest to p among all segments. Cost: linear in the axis.
 AxisPlace nearest_place(const Axis& axis, const Vec3& p);

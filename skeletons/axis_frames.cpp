@@ -12,7 +12,9 @@ Vec3 segment_direction(const Axis& axis, std::size_t segment) {
 }
 
 std::vector<Vec3> directions_along(const Axis& axis, const Vec3& first) {
-  std::vector<Vec3> directions{first};
+  std::vector<Vec3> directions;
+  directions.reserve(std::max<std::size_t>(axis.nodes.size(), 2) - 1);
+  directions.push_back(first);
   for (std::size_t i = 1; i + 1 < axis.nodes.size(); ++i)
     directions.push_back(transported(directions.back(), segment_direction(axis, i - 1), segment_direction(axis, i)));
   return directions;
@@ -20,7 +22,7 @@ std::vector<Vec3> directions_along(const Axis& axis, const Vec3& first) {
 
 std::vector<AxisFrame> frames_of(const AxisTree& tree) {
   std::vector<AxisFrame> frames(tree.axes.size());
-  const auto laterals = laterals_of(tree);
+  const Laterals laterals(tree);
   for (std::size_t i = 0; i < tree.axes.size(); ++i) {
     const Axis& axis = tree.axes[i];
     if (axis.parent < 0) frames[i].u = across(segment_direction(axis, 0), Vec3(1, 0, 0));

@@ -15,6 +15,14 @@ int steps_for(double angle, double max_turn) {
   return std::max(1, static_cast<int>(std::ceil(angle / (max_turn * kSlack))));
 }
 
+struct Corner { Vec3 in, out; double length_in, length_out; };
+
+Corner corner_at(const Path& path, std::size_t i) {
+  const PathNode &a = path[i - 1], &c = path[i], &b = path[i + 1];
+  const double length_in = glm::distance(a.position, c.position), length_out = glm::distance(c.position, b.position);
+  return {(c.position - a.position) / length_in, (b.position - c.position) / length_out, length_in, length_out};
+}
+
 double mix_at(double a, double b, double t) { return a + t * (b - a); }
 
 }  // namespace
@@ -42,7 +50,8 @@ double diffuse(Path& path, double smooth) {
   // Implicit steps, each one tridiagonal solve: unconditionally stable, so the cost does not grow as steps shorten. Four of
   // them come near a Gaussian with a standard deviation of half of `smooth` radii, which leaves 1 % of a wave that long.
   constexpr int kPasses = 4;
-  const Path before = path;
+  std::vector<Vec3> before(count);
+  for (std::size_t i = 0; i < count; ++i) before[i] = path[i].position;
   std::vector<double> h(count), upper(count);
   std::vector<Vec3> right(count);
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -62,7 +71,7 @@ double diffuse(Path& path, double smooth) {
   }
   double farthest = 0;
   for (std::size_t i = 0; i < count; ++i)
-    farthest = std::max(farthest, glm::distance(before[i].position, path[i].position));
+    farthest = std::max(farthest, glm::distance(before[i], path[i].position));
   return farthest;
 }
 
@@ -130,20 +139,31 @@ void bend_internodes(Path& path, const Vec3& bearing, double angle, double max_t
 
 void round_corners(Path& path, double extent, double max_turn) {
   if (path.size() < 3) return;
-  Path rounded{path[0]};
+  // Turns first, so that the path that comes out, which may be many times as long, is never moved to make room.
+  std::vector<double> turns(path.size(), 0);
+  std::size_t size = path.size();
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const Corner corner = corner_at(path, i);
+    const double turn = angle_between(corner.in, corner.out);
+    if (!(turn > max_turn * kSlack) || turn > kReversal) continue;
+    turns[i] = turn;
+    size += static_cast<std::size_t>(steps_for(turn, max_turn));
+  }
+  Path rounded;
+  rounded.reserve(size);
+  rounded.push_back(path[0]);
   const auto append = [&](const PathNode& node) {
     const PathNode& last = rounded.back();
     if (glm::distance(last.position, node.position) > 1e-6 * last.radius) rounded.push_back(node);
   };
   for (std::size_t i = 1; i + 1 < path.size(); ++i) {
     const PathNode &a = path[i - 1], &c = path[i], &b = path[i + 1];
-    const double length_in = glm::distance(a.position, c.position), length_out = glm::distance(c.position, b.position);
-    const Vec3 in = (c.position - a.position) / length_in, out = (b.position - c.position) / length_out;
-    const double turn = angle_between(in, out);
-    if (!(turn > max_turn * kSlack) || turn > kReversal) {
+    const double turn = turns[i];
+    if (turn == 0) {
       append(c);
       continue;
     }
+    const auto [in, out, length_in, length_out] = corner_at(path, i);
     const double reach = std::min({extent * c.radius, 0.5 * length_in, 0.5 * length_out});
     const double rho = reach / std::tan(0.5 * turn);
     const Vec3 start = c.position - reach * in, inward = across(in, out);

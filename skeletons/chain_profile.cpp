@@ -10,7 +10,7 @@ class ChainProfile {
   ChainProfile(const AxisTree& tree, const std::vector<AxisFrame>& frames, const SurfaceOptions& options,
                const std::vector<PlacedScar>& scars, BlobTreeBuilder& builder, SurfaceReport& report)
       : axes_(tree.axes), frames_(frames), options_(options), scars_(scars), builder_(builder), report_(report),
-        laterals_(laterals_of(tree)), built_(tree.axes.size(), kNone) {}
+        laterals_(tree), built_(tree.axes.size(), kNone) {}
 
   NodeId build() {
     // Parents stand first, so going backwards every lateral is built before the axis that bears it.
@@ -37,7 +37,6 @@ class ChainProfile {
     std::vector<std::uint32_t> borne;
     for (const std::uint32_t k : laterals_[i])
       if (built_[k] != kNone) borne.push_back(k);
-    std::vector<std::uint32_t>().swap(laterals_[i]);
 
     Body body = body_of(i);
     if (body.nodes.empty() && !borne.empty()) body = stub_of(i);
@@ -57,6 +56,7 @@ class ChainProfile {
     fork.axis = axis;
     fork.width = options_.width;
     fork.lip = options_.lip;
+    fork.laterals.reserve(borne.size());
     for (const std::uint32_t k : borne) fork.laterals.push_back(lateral_of(i, k));
     return builder_.add(std::move(fork));
   }
@@ -93,6 +93,7 @@ class ChainProfile {
     const double delta = delta_of(axis);
     Body body;
     body.begin = delta;
+    body.nodes.reserve(axis.nodes.size());
     if (delta > 0) {
       const std::vector<double> lengths = lengths_along(axis);
       if (delta >= lengths.back()) return body;
@@ -111,7 +112,7 @@ class ChainProfile {
   /// What is left of an axis shorter than delta: its tip, so thin that its support stays off the parent's far side.
   Body stub_of(std::size_t i) {
     const Axis& axis = axes_[i];
-    const double length = lengths_along(axis).back(), parent_radius = radius_at(axes_[axis.parent], axis.attach);
+    const double length = length_of(axis), parent_radius = radius_at(axes_[axis.parent], axis.attach);
     Body body;
     body.begin = length;
     body.segment = axis.nodes.size() < 2 ? 0 : axis.nodes.size() - 2;
@@ -194,7 +195,7 @@ class ChainProfile {
   const std::vector<PlacedScar>& scars_;
   BlobTreeBuilder& builder_;
   SurfaceReport& report_;
-  std::vector<std::vector<std::uint32_t>> laterals_;
+  Laterals laterals_;
   std::vector<NodeId> built_;
   std::size_t stubs_ = 0, buried_ = 0;
 };

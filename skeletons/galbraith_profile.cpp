@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace cambium {
 namespace {
@@ -39,7 +40,7 @@ class GalbraithProfile {
 
   void find_bearers() {
     bearers_.resize(axes_.size());
-    borne_.resize(axes_.size());
+    first_borne_.assign(axes_.size() + 1, 0);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       const Axis& axis = axes_[i];
       if (axis.parent < 0) continue;
@@ -47,18 +48,26 @@ class GalbraithProfile {
       bearer.node = std::min(bearer.node, axes_[bearer.axis].nodes.size() - 1);
       if (bearer.node == 0 && axes_[bearer.axis].parent >= 0) bearer = bearers_[bearer.axis];
       bearers_[i] = bearer;
-      if (axis.nodes.size() > 1) borne_[bearer.axis].push_back(static_cast<std::uint32_t>(i));
+      if (axis.nodes.size() > 1) ++first_borne_[bearer.axis + 1];
     }
+    for (std::size_t i = 1; i < first_borne_.size(); ++i) first_borne_[i] += first_borne_[i - 1];
+    borne_.resize(first_borne_.back());
+    std::vector<std::uint32_t> next(first_borne_.begin(), first_borne_.end() - 1);
     for (std::size_t i = 0; i < axes_.size(); ++i)
-      std::stable_sort(borne_[i].begin(), borne_[i].end(),
-                       [&](std::uint32_t a, std::uint32_t b) { return bearers_[a].node < bearers_[b].node; });
+      if (axes_[i].parent >= 0 && axes_[i].nodes.size() > 1)
+        borne_[next[bearers_[i].axis]++] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      std::sort(borne_.begin() + first_borne_[i], borne_.begin() + first_borne_[i + 1],
+                [&](std::uint32_t a, std::uint32_t b) {
+                  return bearers_[a].node != bearers_[b].node ? bearers_[a].node < bearers_[b].node : a < b;
+                });
   }
 
   void build_axis(std::size_t i, std::vector<NodeId>& roots) {
     const Axis& axis = axes_[i];
     const std::size_t count = axis.nodes.size();
     if (count < 2 && axis.parent >= 0) return;
-    std::vector<std::uint32_t>& borne = borne_[i];
+    std::span<const std::uint32_t> borne = borne_by(i);  // those that stand on nodes not yet passed
     const std::vector<double> lengths = lengths_along(axis);
     const std::vector<Vec3> u = directions_along(axis, frames_[i].u);
     const ScarRange scars = scars_of(scars_, i);
@@ -74,7 +83,7 @@ class GalbraithProfile {
       fields.clear();
       if (continues) children.push_back({i, node + 1}), fields.push_back(subtree);
       const std::size_t first = fields.size();
-      for (; !borne.empty() && bearers_[borne.back()].node == node; borne.pop_back())
+      for (; !borne.empty() && bearers_[borne.back()].node == node; borne = borne.first(borne.size() - 1))
         children.push_back({borne.back(), 1}), fields.push_back(built_[borne.back()]);
       std::reverse(children.begin() + static_cast<std::ptrdiff_t>(first), children.end());
       std::reverse(fields.begin() + static_cast<std::ptrdiff_t>(first), fields.end());
@@ -96,6 +105,10 @@ class GalbraithProfile {
     roots.push_back(together(fields));
   }
 
+  std::span<const std::uint32_t> borne_by(std::size_t i) const {
+    return {borne_.data() + first_borne_[i], first_borne_[i + 1] - first_borne_[i]};
+  }
+
   /// Internodes that leave the node where this axis begins.
   std::size_t siblings_at_base(std::size_t i) const {
     if (axes_[i].parent < 0) return borne_at(i, 0) + 1;
@@ -106,7 +119,7 @@ class GalbraithProfile {
   std::size_t siblings_at(std::size_t i, std::size_t node) const { return borne_at(i, node) + 1; }
 
   std::size_t borne_at(std::size_t i, std::size_t node) const {
-    const auto& borne = borne_[i];
+    const std::span<const std::uint32_t> borne = borne_by(i);
     const auto first = std::partition_point(borne.begin(), borne.end(), [&](auto k) { return bearers_[k].node < node; });
     const auto last = std::partition_point(first, borne.end(), [&](auto k) { return bearers_[k].node <= node; });
     return static_cast<std::size_t>(last - first);
@@ -240,7 +253,7 @@ class GalbraithProfile {
   BlobTreeBuilder& builder_;
   SurfaceReport& report_;
   std::vector<Bearer> bearers_;
-  std::vector<std::vector<std::uint32_t>> borne_;  // by axis, ascending nodes
+  std::vector<std::uint32_t> first_borne_, borne_;  // by axis, ascending nodes
   std::vector<NodeId> built_;
   std::size_t shortened_ = 0, straightened_ = 0;
 };

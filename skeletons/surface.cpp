@@ -5,6 +5,8 @@
 #include "skeletons/conditioning.h"
 #include "skeletons/profiles.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +29,7 @@ void describe(const AxisTree& tree, SurfaceReport& report) {
     report.internodes += axis.nodes.size() - 1;
     report.max_order = std::max<std::size_t>(report.max_order, axis.order);
     report.roots += axis.parent < 0 ? 1 : 0;
-    report.total_length += lengths_along(axis).back();
+    report.total_length += length_of(axis);
     for (const AxisNode& node : axis.nodes) {
       report.min_radius = std::min(report.min_radius, node.radius);
       report.max_radius = std::max(report.max_radius, node.radius);
@@ -37,7 +39,7 @@ void describe(const AxisTree& tree, SurfaceReport& report) {
 
 }  // namespace
 
-Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
+Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const RunOptions& run) {
   if (skeleton.nodes.empty()) throw InputError({}, "a skeleton without nodes", "at least one");
   check(options);
   Surfaced made;
@@ -46,7 +48,8 @@ Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
 
   const RadiusSteps steps = options.profile == Profile::kChain ? RadiusSteps::kTaper : RadiusSteps::kKeep;
   AxisTree tree = decompose_axes(skeleton, steps, &report.nodes_dropped);
-  condition(tree, options.conditioning, options.profile, options.bend, report);
+  tbb::task_arena arena(run.threads > 0 ? run.threads : tbb::task_arena::automatic);
+  arena.execute([&] { condition(tree, options.conditioning, options.profile, options.bend, report); });
   apply_prunes(tree, options.prunes, options.profile, report);
   const std::vector<AxisFrame> frames = frames_of(tree);
   const std::vector<PlacedScar> scars = place_scars(tree, frames, options, report);
