@@ -57,6 +57,8 @@ N with_gradient(typename NumberOf<N>::type value, const Vec<typename NumberOf<N>
 template <class N> N select(bool c, const N& a, const N& b) { return c ? a : b; }
 inline bool all(bool c) { return c; }
 inline bool none(bool c) { return !c; }
+inline bool quickly_all(bool c) { return c; }
+inline bool quickly_none(bool c) { return !c; }
 
 /// a^e for a >= 0.
 template <class T>

@@ -15,9 +15,11 @@ using Operands = const N*;
 template <class N>
 using Weights = const N*;
 
-#define CAMBIUM_RULE_ATTRIBUTES
+#define CAMBIUM_RULE
+#define CAMBIUM_RULE_LAMBDA
 #include "blobtree/operator_rules-inl.h"
-#undef CAMBIUM_RULE_ATTRIBUTES
+#undef CAMBIUM_RULE_LAMBDA
+#undef CAMBIUM_RULE
 
 /// The weight of a lateral at a point relative to its branching point.
 template <class N>
