@@ -2,13 +2,9 @@
 
 #include "skeletons/axis_shaping.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <utility>
 
 namespace cambium {
 namespace {
@@ -24,7 +20,7 @@ class Conditioner {
   Conditioner(AxisTree& tree, const ConditioningOptions& options, Profile profile, const std::vector<double>& bend,
               SurfaceReport& report)
       : axes_(tree.axes), tree_(tree), options_(options), profile_(profile), bend_(bend), report_(report),
-        laterals_(tree), moved_(tree.axes.size(), 0), removed_(tree.axes.size(), 0) {
+        laterals_(tree), moved_(tree.axes.size(), false), removed_(tree.axes.size(), false) {
     double largest = 0;
     for (const Axis& axis : axes_)
       for (const AxisNode& node : axis.nodes) largest = std::max(largest, node.radius);
@@ -37,47 +33,20 @@ class Conditioner {
   }
 
   void run() {
-    // In generations: axes whose bearers are all done change only themselves and where their own laterals stand.
-    tbb::enumerable_thread_specific<Tally> tallies;
-    for (std::size_t first = 0, end = 0; first < axes_.size(); first = end) {
-      while (end < axes_.size() && axes_[end].parent < static_cast<std::int32_t>(first)) ++end;
-      const auto condition_range = [&](const tbb::blocked_range<std::size_t>& range) {
-        Tally& tally = tallies.local();
-        for (std::size_t i = range.begin(); i < range.end(); ++i) condition_axis(i, tally);
-      };
-      constexpr std::size_t kGrain = 256;  // fewer are not worth a task: trees may be 10^5 generations deep
-      const tbb::blocked_range<std::size_t> generation(first, end, kGrain);
-      if (end - first <= kGrain)
-        condition_range(generation);
-      else
-        tbb::parallel_for(generation, condition_range);
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      Axis& axis = axes_[i];
+      if (axis.parent >= 0) {
+        axis.order = axes_[axis.parent].order + 1;
+        follow_parent(i);
+        if (options_.enabled && !reroot(i)) continue;
+      }
+      clamp_radii(axis);
+      shape(i);
     }
-    for (const Tally& tally : tallies) {  // sums of counts and a maximum: the same in any order
-      report_.radii_clamped += tally.radii_clamped;
-      report_.nodes_dropped += tally.nodes_dropped;
-      report_.laterals_rerooted += tally.laterals_rerooted;
-      report_.largest_move = std::max(report_.largest_move, tally.largest_move);
-    }
-    remove_axes(tree_, std::vector<bool>(removed_.begin(), removed_.end()));
+    remove_axes(tree_, std::move(removed_));
   }
 
  private:
-  struct Tally {
-    std::size_t radii_clamped = 0, nodes_dropped = 0, laterals_rerooted = 0;
-    double largest_move = 0;
-  };
-
-  void condition_axis(std::size_t i, Tally& tally) {
-    Axis& axis = axes_[i];
-    if (axis.parent >= 0) {
-      axis.order = axes_[axis.parent].order + 1;
-      follow_parent(i);
-      if (options_.enabled && !reroot(i, tally)) return;
-    }
-    clamp_radii(axis, tally);
-    shape(i, tally);
-  }
-
   /// The parent has moved: the first node goes along, the others the less the farther they are.
   void follow_parent(std::size_t i) {
     Axis& axis = axes_[i];
@@ -97,7 +66,7 @@ class Conditioner {
   }
 
   /// Conditioning 3. False if nothing of the lateral is left; what it bore has then moved to the parent.
-  bool reroot(std::size_t i, Tally& tally) {
+  bool reroot(std::size_t i) {
     Axis& axis = axes_[i];
     const Axis& parent = axes_[axis.parent];
     std::size_t outside = 1;
@@ -119,12 +88,12 @@ class Conditioner {
       }
       lateral.attach = walk_to_nearest(parent, place, lateral.nodes[0].position);
       lateral.parent = axis.parent;
-      moved_[k] = 1;
-      ++tally.laterals_rerooted;
+      moved_[k] = true;
+      ++report_.laterals_rerooted;
     }
-    tally.nodes_dropped += outside - 1;
+    report_.nodes_dropped += outside - 1;
     if (gone) {
-      removed_[i] = 1;
+      removed_[i] = true;
       return false;
     }
     // Where the segment comes out, by halving.
@@ -139,17 +108,17 @@ class Conditioner {
     axis.attach = walk_to_nearest(parent, place, glm::mix(a.position, b.position, out));
     axis.nodes.erase(axis.nodes.begin(), axis.nodes.begin() + static_cast<std::ptrdiff_t>(outside - 1));
     axis.nodes[0] = {position_at(parent, axis.attach), glm::mix(a.radius, b.radius, out)};
-    ++tally.laterals_rerooted;
+    ++report_.laterals_rerooted;
     return true;
   }
 
-  void clamp_radii(Axis& axis, Tally& tally) {
+  void clamp_radii(Axis& axis) {
     double limit = kInfinity;
     if (options_.enabled && axis.parent >= 0) limit = radius_at(axes_[axis.parent], axis.attach);
     for (AxisNode& node : axis.nodes) {
       const double lowest = options_.enabled ? min_radius_ : kThinnest;
       const double radius = node.radius > 0 ? std::min(std::max(node.radius, lowest), limit) : std::min(min_radius_, limit);
-      if (radius != node.radius) ++tally.radii_clamped;
+      if (radius != node.radius) ++report_.radii_clamped;
       node.radius = radius;
       if (options_.enabled) {
         if (node.base_radius > 0) node.base_radius = std::clamp(node.base_radius, radius, std::max(radius, limit));
@@ -158,21 +127,21 @@ class Conditioner {
     }
   }
 
-  void shape(std::size_t i, Tally& tally) {
+  void shape(std::size_t i) {
     Axis& axis = axes_[i];
     const double angle = profile_ == Profile::kChain ? bend_of_order(bend_, axis.order) : 0;
     if (smooth_ == 0 && angle == 0 && !(options_.enabled && profile_ == Profile::kGalbraith)) return;
     Path path = path_of(axis);
-    tally.largest_move = std::max(tally.largest_move, diffuse(path, smooth_));
+    report_.largest_move = std::max(report_.largest_move, diffuse(path, smooth_));
     if (profile_ == Profile::kGalbraith) {
-      tally.nodes_dropped += merge_short(path, kGalbraithSpacing);
+      report_.nodes_dropped += merge_short(path, kGalbraithSpacing);
     } else {
-      if (smooth_ > 0) tally.nodes_dropped += merge_short(path, kChainSpacing);
+      if (smooth_ > 0) report_.nodes_dropped += merge_short(path, kChainSpacing);
       if (angle != 0)
         bend_internodes(path, axis.parent < 0 ? Vec3(0.0) : tangent_at(axes_[axis.parent], axis.attach), angle, max_turn_);
       if (smooth_ > 0) round_corners(path, 0.5 * smooth_, max_turn_);
     }
-    if (path.size() > axis.nodes.capacity()) axis.nodes = {};  // freed before, not after, the new ones are made
+    if (path.size() > axis.nodes.capacity()) std::vector<AxisNode>().swap(axis.nodes);  // freed before, not after, the new ones are made
     axis.nodes.clear();
     axis.nodes.reserve(path.size());
     for (const PathNode& node : path) axis.nodes.push_back({node.position, node.radius, node.base_radius});
@@ -190,7 +159,7 @@ class Conditioner {
   const std::vector<double>& bend_;
   SurfaceReport& report_;
   const Laterals laterals_;                ///< as they were at first
-  std::vector<std::uint8_t> moved_, removed_;  ///< bytes: written by several threads
+  std::vector<bool> moved_, removed_;
   double min_radius_ = 0, max_turn_ = 0, smooth_ = 0;
 };
 

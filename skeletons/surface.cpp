@@ -5,8 +5,6 @@
 #include "skeletons/conditioning.h"
 #include "skeletons/profiles.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +37,7 @@ void describe(const AxisTree& tree, SurfaceReport& report) {
 
 }  // namespace
 
-Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const RunOptions& run) {
+Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
   if (skeleton.nodes.empty()) throw InputError({}, "a skeleton without nodes", "at least one");
   check(options);
   Surfaced made;
@@ -48,8 +46,7 @@ Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const 
 
   const RadiusSteps steps = options.profile == Profile::kChain ? RadiusSteps::kTaper : RadiusSteps::kKeep;
   AxisTree tree = decompose_axes(skeleton, steps, &report.nodes_dropped);
-  tbb::task_arena arena(run.threads > 0 ? run.threads : tbb::task_arena::automatic);
-  arena.execute([&] { condition(tree, options.conditioning, options.profile, options.bend, report); });
+  condition(tree, options.conditioning, options.profile, options.bend, report);
   apply_prunes(tree, options.prunes, options.profile, report);
   const std::vector<AxisFrame> frames = frames_of(tree);
   const std::vector<PlacedScar> scars = place_scars(tree, frames, options, report);

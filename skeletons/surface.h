@@ -76,9 +76,8 @@ struct Surfaced {
   SurfaceReport report;
 };
 
-/// Never fails on a valid skeleton with at least one internode. Deterministic for a seed, with any number of threads.
-/// Of `run` only the threads are used. Cost: linear in the internodes that come out.
+/// Never fails on a valid skeleton with at least one internode. Deterministic for a seed. Cost: linear in the internodes that come out.
 /// Errors: InputError without a location (the caller knows the file) for an empty skeleton, or a prune or scar that names no branch.
-Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const RunOptions& run = {});
+Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options);
 
 }  // namespace cambium

@@ -1,6 +1,5 @@
 #include "skeletons/surface.h"
 
-#include "blobtree/blobtree_json.h"
 #include "blobtree/field.h"
 #include "blobtree/input_error.h"
 #include "grown_trees.h"
@@ -86,24 +85,6 @@ TEST(Surface, ABlobTreeTakesAtMost200BytesPerInternode) {
       EXPECT_GE(internodes, 9000u);
       EXPECT_LE(made.tree.memory_bytes(), 200 * internodes);
     }
-  }
-}
-
-TEST(Surface, IsTheSameWithAnyNumberOfThreads) {
-  for (const Profile profile : {Profile::kChain, Profile::kGalbraith}) {
-    SurfaceOptions options;
-    options.profile = profile;
-    options.bend = {0.1, 0.3};
-    RunOptions one, four;
-    one.threads = 1;
-    four.threads = 4;
-    const Skeleton skeleton = grown_binary_tree(20000);  // generations of thousands of axes
-    const Surfaced a = surface(skeleton, options, one), b = surface(skeleton, options, four);
-    EXPECT_EQ(to_json(a.tree), to_json(b.tree));
-    EXPECT_EQ(a.report.radii_clamped, b.report.radii_clamped);
-    EXPECT_EQ(a.report.nodes_dropped, b.report.nodes_dropped);
-    EXPECT_EQ(a.report.laterals_rerooted, b.report.laterals_rerooted);
-    EXPECT_EQ(a.report.largest_move, b.report.largest_move);
   }
 }
 
