@@ -58,27 +58,36 @@ std::size_t PrimitiveStore::memory_bytes() const {
   return bytes_of(entries_) + std::apply([](const auto&... array) { return (bytes_of(array) + ...); }, shapes_);
 }
 
-Vec3 AtomCoordinates::u_direction(const Vec3& axis) const {
-  const Vec3 from = any_normal(axis);
-  return std::cos(turn) * from + std::sin(turn) * glm::cross(axis, from);
+CarriedCoordinates CarriedCoordinates::from(const AtomCoordinates& at, const Vec3& axis) {
+  const Vec3 normal = any_normal(axis);
+  return {at.v, std::cos(at.turn) * normal + std::sin(at.turn) * glm::cross(axis, normal), axis};
 }
 
-AtomCoordinates AtomCoordinates::at(double v, const Vec3& u, const Vec3& axis) {
-  const Vec3 from = any_normal(axis);
-  return {v, std::atan2(glm::dot(u, glm::cross(axis, from)), glm::dot(u, from))};
+AtomCoordinates CarriedCoordinates::at_atom() const {
+  const Vec3 normal = any_normal(axis);
+  return {v, std::atan2(glm::dot(u, glm::cross(axis, normal)), glm::dot(u, normal))};
 }
 
-AtomCoordinates AtomCoordinates::carried(const SweptSegment<double>& from, const SweptSegment<double>& to) const {
-  const double next = v + from.end;
-  if (!(from.end > 0) || !(to.end > 0)) return {next, turn};
-  return at(next, transported(u_direction(from.axis), from.axis, to.axis), to.axis);
+void CarriedCoordinates::advance(const SweptSegment<double>& passed, const SweptSegment<double>& next) {
+  v += passed.end;
+  if (!(next.end > 0)) return;
+  u = transported(u, axis, next.axis);
+  axis = next.axis;
 }
 
-AtomCoordinates CompiledTree::coordinates_of(std::uint32_t atom) const {
-  const std::uint32_t run = run_of(atom);
-  AtomCoordinates at = run_begin[run];
-  for (std::uint32_t a = run_first_atom[run]; a < atom; ++a) at = at.carried(segment_of(a), segment_of(a + 1));
-  return at;
+CarriedCoordinates CompiledTree::coordinates_of(std::uint32_t atom) const {
+  const std::uint32_t run = run_of(atom), first = run_first_atom[run];
+  const CompiledNode& node = node_of(atom);
+  if (node.op == Op::kHalfSpace) return CarriedCoordinates::from(run_begin[run], {0, 0, 1});
+  if (node.op == Op::kPrimitive) return CarriedCoordinates::from(run_begin[run], native_axis(primitive_of(node)).axis);
+  SweptSegment<double> segment = segment_of(first);
+  CarriedCoordinates carried = CarriedCoordinates::from(run_begin[run], segment.axis);
+  for (std::uint32_t a = first + 1; a <= atom; ++a) {
+    const SweptSegment<double> next = segment_of(a);
+    carried.advance(segment, next);
+    segment = next;
+  }
+  return carried;
 }
 
 SweptSegment<double> CompiledTree::segment_of(std::uint32_t atom) const {

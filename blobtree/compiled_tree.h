@@ -102,12 +102,18 @@ struct CompiledWarp {
 struct AtomCoordinates {
   double v = 0;
   double turn = 0;                 ///< radians about the axis from any_normal(axis) to the direction in which u = 0
+};
 
-  /// As a direction, and back; axis is the atom's.
-  Vec3 u_direction(const Vec3& axis) const;
-  static AtomCoordinates at(double v, const Vec3& u_direction, const Vec3& axis);
-  /// Carried along one segment to the next; one without length has no direction to be carried along.
-  AtomCoordinates carried(const SweptSegment<double>& from, const SweptSegment<double>& to) const;
+/// Native coordinates on their way along a chain: u is turned no more than the chain turns.
+struct CarriedCoordinates {
+  double v = 0;
+  Vec3 u{1, 0, 0};                 ///< unit, orthogonal to axis
+  Vec3 axis{0, 0, 1};
+
+  static CarriedCoordinates from(const AtomCoordinates& at, const Vec3& axis);
+  AtomCoordinates at_atom() const;
+  /// From one segment to the one after it; a segment without length has no direction to turn to.
+  void advance(const SweptSegment<double>& passed, const SweptSegment<double>& next);
 };
 
 /// What is kept of a primitive beside its shape.
@@ -159,7 +165,7 @@ struct CompiledTree : std::enable_shared_from_this<CompiledTree> {
   }
   /// World box outside of which an atom plays no part.
   Box bounds_of(std::uint32_t atom) const;
-  AtomCoordinates coordinates_of(std::uint32_t atom) const;
+  CarriedCoordinates coordinates_of(std::uint32_t atom) const;
   /// Smallest surface radius along an atom, metres; infinite for a half-space.
   double radius_of(std::uint32_t atom) const;
   /// The shape of a chain's atom, and of a primitive node.

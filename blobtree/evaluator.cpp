@@ -126,11 +126,10 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
     c.order = tree.leaf_of(node).order;
     const Vec3& q = s.points[in.frame];
     const auto place = [&](std::uint32_t atom, const NativeAxis& native, double along) {
-      const AtomCoordinates at = tree.coordinates_of(atom);
+      const CarriedCoordinates at = tree.coordinates_of(atom);
       const Vec3 from = q - native.origin;
-      const Vec3 normal = any_normal(native.axis);
       c.v = at.v + along;
-      c.u = turns(std::atan2(glm::dot(from, glm::cross(native.axis, normal)), glm::dot(from, normal)) - at.turn);
+      c.u = turns(std::atan2(glm::dot(from, glm::cross(at.axis, at.u)), glm::dot(from, at.u)));
     };
     if (op == Op::kChain) {
       double best = kInfinity;

@@ -19,7 +19,7 @@ Interval widened(const Interval& a) {
 double largest_push(const Interval& f, double width, double lip) {
   if (f.lo >= kIso) return kIso - f.lo;
   const double lo = std::max(f.lo, kIso - width), hi = std::min(f.hi, kIso);
-  if (lo >= hi) return 0;
+  if (lo > hi) return 0;
   const double b = 3 - 2 * lip;
   const double peak_u = lip > 1e-9 ? (-b + std::sqrt(b * b + 16 * lip)) / (8 * lip) : 1.0 / 3;
   const double peak = kIso - width * peak_u;

@@ -120,27 +120,31 @@ class TreeCompiler {
     tree_.leaves.push_back({given.branch, given.order, static_cast<std::uint32_t>(tree_.run_begin.size())});
     const auto begin_with = [&](const Vec3& axis) {
       const Vec3 across = given.u_direction - glm::dot(given.u_direction, axis) * axis;
-      return AtomCoordinates::at(given.v_begin, glm::length(across) > 1e-9 ? glm::normalize(across) : any_normal(axis), axis);
+      return CarriedCoordinates{given.v_begin, glm::length(across) > 1e-9 ? glm::normalize(across) : any_normal(axis), axis};
     };
     const auto begin_run = [&](std::uint32_t atom, const AtomCoordinates& at) {
       tree_.run_first_atom.push_back(atom);
       tree_.run_begin.push_back(at);
     };
     if (n.op != Op::kChain) {
-      begin_run(n.first_atom, begin_with(n.op == Op::kHalfSpace ? Vec3(0, 0, 1) : native_axis(tree_.primitive_of(n)).axis));
+      begin_run(n.first_atom, begin_with(n.op == Op::kHalfSpace ? Vec3(0, 0, 1) : native_axis(tree_.primitive_of(n)).axis).at_atom());
       tree_.node_of_atom.push_back(id);
       return;
     }
     const std::uint32_t segments = tree_.chains[n.payload].node_count - 1;
     SweptSegment<double> last;
-    AtomCoordinates at;
+    CarriedCoordinates carried;
     for (std::uint32_t k = 0; k < segments; ++k) {
       const auto atom = static_cast<std::uint32_t>(tree_.atom_count());
       tree_.node_of_atom.push_back(id);
       const SweptSegment<double> segment = tree_.segment_of(atom);
-      at = k == 0 ? begin_with(segment.axis) : at.carried(last, segment);
+      if (k == 0) {
+        carried = begin_with(segment.axis);
+      } else {
+        carried.advance(last, segment);
+      }
       last = segment;
-      if (k % kRunAtoms == 0) begin_run(atom, at);
+      if (k % kRunAtoms == 0) begin_run(atom, carried.at_atom());
     }
   }
 

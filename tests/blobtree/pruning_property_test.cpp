@@ -121,9 +121,7 @@ struct Tally {
 
 void expect_whole(Evaluator& evaluator, const PrunedField& pruned, const std::vector<Probe>& probes, std::size_t all_atoms,
                   Tally& tally) {
-  // Over a single point rounding in the bounds themselves shows; those are promised for boxes.
-  const bool has_extent = pruned.box().bounded() && pruned.box().size() != Vec3(0.0);
-  const Interval range = has_extent ? evaluator.interval(pruned, pruned.box()) : Interval{-kInfinity, kInfinity};
+  const Interval range = pruned.box().bounded() ? evaluator.interval(pruned, pruned.box()) : Interval{-kInfinity, kInfinity};
   for (const Probe& probe : probes) {
     if (!pruned.box().contains(probe.p)) continue;
     const Sample sample = evaluator.sample(pruned, probe.p);
