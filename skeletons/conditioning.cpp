@@ -141,7 +141,7 @@ class Conditioner {
         bend_internodes(path, axis.parent < 0 ? Vec3(0.0) : tangent_at(axes_[axis.parent], axis.attach), angle, max_turn_);
       if (smooth_ > 0) round_corners(path, 0.5 * smooth_, max_turn_);
     }
-    if (path.size() > axis.nodes.capacity()) std::vector<AxisNode>().swap(axis.nodes);  // freed before, not after, the new ones are made
+    if (path.size() > axis.nodes.capacity()) std::vector<AxisNode>().swap(axis.nodes);  // freed before the new are made
     axis.nodes.clear();
     axis.nodes.reserve(path.size());
     for (const PathNode& node : path) axis.nodes.push_back({node.position, node.radius, node.base_radius});
