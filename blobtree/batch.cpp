@@ -1,5 +1,5 @@
-// Batches of points given as floats relative to the origin of the pruned box. Where floats could not keep 1e-4 (a box much larger
-// than the thinnest primitive in it, or a warp that is not rigid) the same batch runs in double.
+// Batches of points given as floats relative to the origin of the pruned box. Where floats could not keep 1e-4 (a box much
+// larger than the thinnest primitive in it, or a warp that is not rigid) the same batch runs in double.
 #include "blobtree/batch.h"
 
 #include "blobtree/evaluator_scratch.h"
@@ -55,18 +55,19 @@ void BatchScratch::samples(const TapeView& view, const Box& box, const Vec3& ori
     run_samples(doubles_, memory_, batch);
 }
 
-void Evaluator::values(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                       std::span<float> f) {
+void Evaluator::values(const PrunedField& field, std::span<const float> x, std::span<const float> y,
+                       std::span<const float> z, std::span<float> f) {
   check_lengths(x.size(), {y.size(), z.size(), f.size()});
   if (field.empty()) {
     std::fill(f.begin(), f.end(), 0.0f);
     return;
   }
-  scratch_->batch.values(Scratch::view(field), field.box(), field.origin(), {x.size(), x.data(), y.data(), z.data(), f.data()});
+  scratch_->batch.values(Scratch::view(field), field.box(), field.origin(),
+                         {x.size(), x.data(), y.data(), z.data(), f.data()});
 }
 
-void Evaluator::samples(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                        std::span<float> f, std::span<float> gx, std::span<float> gy, std::span<float> gz) {
+void Evaluator::samples(const PrunedField& field, std::span<const float> x, std::span<const float> y,
+                        std::span<const float> z, std::span<float> f, std::span<float> gx, std::span<float> gy, std::span<float> gz) {
   check_lengths(x.size(), {y.size(), z.size(), f.size(), gx.size(), gy.size(), gz.size()});
   if (field.empty()) {
     for (const std::span<float> out : {f, gx, gy, gz}) std::fill(out.begin(), out.end(), 0.0f);

@@ -1,6 +1,6 @@
-// Compiled once for each set of vector instructions and chosen from at run time (Highway). Left out: SSSE3, which no machine of
-// note has without SSE4; the later AVX-512 sets, of which nothing here is used; SVE and RVV, whose vectors have no size and so can not be
-// members of Lanes.
+// Compiled once for each set of vector instructions and chosen from at run time (Highway). Left out: SSSE3, which no
+// machine of note has without SSE4; the later AVX-512 sets, of which nothing here is used; SVE and RVV, whose vectors have
+// no size and so can not be members of Lanes.
 #ifndef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #endif
@@ -48,8 +48,8 @@ HWY_INLINE N Weights<N>::operator[](std::size_t k) const {
   const LaneVector<T> m = broadcast(lateral.direction), q = p - broadcast(lateral.point);
   const Lanes<T> d = root(dot(q, q));
   const Lanes<T> per_d = or_zero(d > Lanes<T>(0), Lanes<T>(1) / d);
-  return contact_weight(with_gradient<N>(dot(q, m), m), with_gradient<N>(d, per_d * q), lateral.half_per_softness, lateral.reach,
-                        lateral.per_reach);
+  return contact_weight(with_gradient<N>(dot(q, m), m), with_gradient<N>(d, per_d * q), lateral.half_per_softness,
+                        lateral.reach, lateral.per_reach);
 }
 
 /// One program over one batch. N: Lanes<T> for values, LaneDual<T> for values and gradients.
@@ -58,7 +58,8 @@ class BatchRun {
  public:
   using T = typename NumberOf<N>::type;
 
-  BatchRun(const BatchProgram<T>& program, ChunkMemory& memory, const BatchArrays& batch) : program_(program), batch_(batch) {
+  BatchRun(const BatchProgram<T>& program, ChunkMemory& memory, const BatchArrays& batch)
+      : program_(program), batch_(batch) {
     const std::size_t arrays = 3 * program.frames.size() + Slot<N>::kArrays * program.slot_count;
     const std::size_t fitting = kCacheBytes / (sizeof(T) * arrays) / kPadding * kPadding;
     capacity_ = std::clamp(fitting, kPadding, kLargestChunk);
@@ -82,7 +83,7 @@ class BatchRun {
  private:
   static constexpr bool kGradient = std::is_same_v<N, LaneDual<T>>;
   static constexpr std::size_t kPadding = 16;          // lanes of the widest vectors
-  static constexpr std::size_t kLargestChunk = 768;    // a block of a mesh, 9^3, in one; with 256 a lone cone takes 15 % longer
+  static constexpr std::size_t kLargestChunk = 768;    // a mesh block, 9^3, in one; with 256 a lone cone takes 15 % longer
   static constexpr std::size_t kCacheBytes = 16 * 1024;
 
   /// The points of a chunk; a last vector that they do not fill repeats the last one.
@@ -253,7 +254,9 @@ class BatchRun {
       case StepKind::kChain: chain(step); break;
       case StepKind::kAdd: combine(step, [](const Operands<N>& f) HWY_ATTR { return f[0] + f[1]; }); break;
       case StepKind::kUnion: combine(step, [=](const Operands<N>& f) HWY_ATTR { return max_of(f, n, with_zero); }); break;
-      case StepKind::kIntersection: combine(step, [=](const Operands<N>& f) HWY_ATTR { return min_of(f, n, with_zero); }); break;
+      case StepKind::kIntersection:
+        combine(step, [=](const Operands<N>& f) HWY_ATTR { return min_of(f, n, with_zero); });
+        break;
       case StepKind::kDifference:
         combine(step, [=](const Operands<N>& f) HWY_ATTR {
           return difference_of(has_first ? f[0] : N(0), f + has_first, n - has_first, with_zero);

@@ -7,8 +7,9 @@
 namespace cambium {
 namespace {
 
-/// Distance from a shape's anchor over support radius. One shape's float value differs from the double one by at most 6e-7 up to 4,
-/// 8e-7 at 8, 1.4e-6 at 16 and 2.1e-6 at 32 (cones; others less). Blocks of a mesh with voxels as large as a twig is thick have about 8.
+/// Distance from a shape's anchor over support radius. One shape's float value differs from the double one by at most 6e-7
+/// up to 4, 8e-7 at 8, 1.4e-6 at 16 and 2.1e-6 at 32 (cones; others less). Blocks of a mesh with voxels as large as a twig
+/// is thick have about 8.
 constexpr double kLargestRatio = 16;
 
 template <class T>
@@ -50,7 +51,8 @@ class ShapePlacer {
     local.radius = static_cast<T>(k.radius_at(s));
     local.slope = static_cast<T>(k.slope);
     const double away = reach_ + glm::length(anchor);
-    const double thinnest = std::max(std::min(k.radius_at(k.begin), k.radius_at(k.end)), k.radius_at(s) - std::abs(k.slope) * away);
+    const double thinner_end = std::min(k.radius_at(k.begin), k.radius_at(k.end));
+    const double thinnest = std::max(thinner_end, k.radius_at(s) - std::abs(k.slope) * away);
     note(away * kRadiusPerSupport / thinnest * std::max(1.0, std::abs(strength)));
   }
 
@@ -87,7 +89,8 @@ class ShapePlacer {
   /// Of distances in units of `unit` metres.
   LocalFalloff<T> falloff(double unit) const {
     const double per_unit = per_support_ * unit;
-    return {static_cast<T>(per_unit * per_unit), static_cast<T>(strength_), static_cast<T>(-6 * strength_ * per_unit * per_unit)};
+    const double per_square = per_unit * per_unit;
+    return {static_cast<T>(per_square), static_cast<T>(strength_), static_cast<T>(-6 * strength_ * per_square)};
   }
   /// Notes a shape that is measured from `anchor`, and gives its kind and place to the step.
   void begin(Step& step, StepKind kind, std::uint32_t at, const Vec3& anchor) {
@@ -137,7 +140,9 @@ class ShapePlacer {
     row[3] = static_cast<T>(-glm::dot(direction, anchor) * per_support_);
   }
   void add(const DiscSkeleton<double>& k, Step& step) { add_ring(StepKind::kDisc, k.center, k.normal, k.disc_radius, step); }
-  void add(const CircleSkeleton<double>& k, Step& step) { add_ring(StepKind::kCircle, k.center, k.normal, k.ring_radius, step); }
+  void add(const CircleSkeleton<double>& k, Step& step) {
+    add_ring(StepKind::kCircle, k.center, k.normal, k.ring_radius, step);
+  }
   void add_ring(StepKind kind, const Vec3& center, const Vec3& normal, double radius, Step& step) {
     begin(step, kind, index(out_.rings), center - origin_);
     LocalRing<T>& local = out_.rings.emplace_back();

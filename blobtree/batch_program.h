@@ -1,5 +1,6 @@
-// A pruned field made ready for batches: flat steps over chunks of points, with every shape placed relative to the origin of the
-// batch. Private to blobtree/. Shapes are placed in double and then rounded to T, so that a 1 mm twig 30 m up loses nothing.
+// A pruned field made ready for batches: flat steps over chunks of points, with every shape placed relative to the origin
+// of the batch. Private to blobtree/. Shapes are placed in double and then rounded to T, so that a 1 mm twig 30 m up loses
+// nothing.
 //
 // A program is plain data: it refers to nothing, so it stays valid whatever becomes of the field it was made from.
 // A sum adds each child as it comes (from left to right, as points do); a primitive or chain adds itself to the slot below.
@@ -27,9 +28,9 @@ struct LocalSegment {                     ///< a + s axis, s in [begin, end]; a 
   T a[3], axis[3], begin, end;
   LocalFalloff<T> falloff;
 };
-/// Solid cone in its own coordinates u, v across and h along its axis, in units of the support radius, from the point of the axis
-/// nearest to the origin: rows of {x, y, z, offset}. On the slanted side: the point (rho, h) = (core, 0), the tangent towards the
-/// apex and how far the side runs both ways.
+/// Solid cone in its own coordinates u, v across and h along its axis, in units of the support radius, from the point of
+/// the axis nearest to the origin: rows of {x, y, z, offset}. On the slanted side: the point (rho, h) = (core, 0), the
+/// tangent towards the apex and how far the side runs both ways.
 template <class T>
 struct LocalCone {
   T u[4], v[4], h[4], core, tangent_rho, tangent_h, side_begin, side_end, base_h, disc_radius;
@@ -57,7 +58,8 @@ template <class T>
 struct LocalLateral {
   T point[3], direction[3], half_per_softness, reach, per_reach;
 };
-/// The space inside a warp. A linear one is relative to its own origin: q = matrix * p. Others map points one by one in double.
+/// The space inside a warp. A linear one is relative to its own origin: q = matrix * p. Others map points one by one in
+/// double.
 template <class T>
 struct LocalFrame {
   std::uint32_t outside = 0;

@@ -41,7 +41,8 @@ HWY_INLINE Lanes<T> from_bits(V bits) {
   return Lanes<T>(hn::BitCast(hn::ScalableTag<T>(), bits));
 }
 
-/// Natural logarithm of a > 0 (not of denormals): of 2^e m with m in [sqrt(1/2), sqrt(2)), by the series of 2 atanh((m-1)/(m+1)).
+/// Natural logarithm of a > 0 (not of denormals): of 2^e m with m in [sqrt(1/2), sqrt(2)), by the series of 2
+/// atanh((m-1)/(m+1)).
 template <class T>
 HWY_INLINE Lanes<T> log_of(Lanes<T> a) {
   using B = Binary<T>;

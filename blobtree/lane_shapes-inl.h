@@ -1,6 +1,6 @@
-// Distances to skeletons in vector lanes (field.md section 3): the square of the distance, which is all that the falloff asks for,
-// and the vector from the nearest skeleton point, along which the gradient lies. Included by batch_kernels.cpp once for each
-// set of vector instructions. Private to blobtree/.
+// Distances to skeletons in vector lanes (field.md section 3): the square of the distance, which is all that the falloff
+// asks for, and the vector from the nearest skeleton point, along which the gradient lies. Included by batch_kernels.cpp
+// once for each set of vector instructions. Private to blobtree/.
 #if defined(CAMBIUM_BLOBTREE_LANE_SHAPES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAMBIUM_BLOBTREE_LANE_SHAPES_INL_H
 #undef CAMBIUM_BLOBTREE_LANE_SHAPES_INL_H
@@ -14,10 +14,10 @@ HWY_BEFORE_NAMESPACE();
 namespace cambium {
 namespace HWY_NAMESPACE {
 
-// What a shape has to say of a point, in three steps: begin() is all up to roots and divisions, measure() gives the square of the
-// distance, direction() the vector from the nearest skeleton point (up to the factor that LocalFalloff::slope has). A loop takes each
-// step for another vector of points, because a machine looks only so far ahead for something to do while a root takes its time: a
-// cone takes six sevenths of the time that way, with gradient two thirds.
+// What a shape has to say of a point, in three steps: begin() is all up to roots and divisions, measure() gives the square
+// of the distance, direction() the vector from the nearest skeleton point (up to the factor that LocalFalloff::slope has).
+// A loop takes each step for another vector of points, because a machine looks only so far ahead for something to do while
+// a root takes its time: a cone takes six sevenths of the time that way, with gradient two thirds.
 
 /// Of a shape whose direction is there when the square is.
 template <class T>
@@ -84,8 +84,8 @@ class ConeLanes {
   };
   static constexpr bool kInSupportRadii = true;
   HWY_INLINE explicit ConeLanes(const LocalCone<T>& k)
-      : u_(k.u), v_(k.v), h_(k.h), core_(k.core), tangent_rho_(k.tangent_rho), tangent_h_(k.tangent_h), side_begin_(k.side_begin),
-        side_end_(k.side_end), base_h_(k.base_h), disc_radius_(k.disc_radius) {}
+      : u_(k.u), v_(k.v), h_(k.h), core_(k.core), tangent_rho_(k.tangent_rho), tangent_h_(k.tangent_h),
+        side_begin_(k.side_begin), side_end_(k.side_end), base_h_(k.base_h), disc_radius_(k.disc_radius) {}
   template <bool kGradient>
   HWY_INLINE Begun begin(const LaneVector<T>& p) const {
     Begun b;
@@ -201,7 +201,8 @@ class BoxLanes {
   LaneVector<T> center_, x_, y_, z_, half_;
 };
 
-/// The nearest of a chain's segments so far, as a fraction square / radius_square: one comparison of products each, no division.
+/// The nearest of a chain's segments so far, as a fraction square / radius_square: one comparison of products each, no
+/// division.
 template <class T>
 struct SweptNearest {
   Lanes<T> square, radius_square;
@@ -220,7 +221,8 @@ HWY_INLINE SweptNearest<T> swept(const LocalSwept<T>& k, const LaneVector<T>& p)
     if constexpr (kGradient) result.vector = v;
     return result;
   }
-  // field.md's t* is h + e^2 slope / (radius at h), e the distance from the axis; where that radius is gone, the thicker end.
+  // field.md's t* is h + e^2 slope / (radius at h), e the distance from the axis; where that radius is gone, the thicker
+  // end.
   const Lanes<T> slope(k.slope), radius_at_h = radius + h * slope, thicker(k.slope > T(0) ? k.end : k.begin);
   const LaneVector<T> across = q - h * axis;
   const Lanes<T> e_square = dot(across, across);

@@ -1,7 +1,9 @@
-// Vector lanes of a number, and of a number with its gradient, with the arithmetic that operator_rules-inl.h asks for. Included by
-// batch_kernels.cpp once for each set of vector instructions, hence the toggled include guard. Private to blobtree/.
+// Vector lanes of a number, and of a number with its gradient, with the arithmetic that operator_rules-inl.h asks for.
+// Included by batch_kernels.cpp once for each set of vector instructions, hence the toggled include guard. Private to
+// blobtree/.
 //
-// Multiplications and additions are never fused, whatever the machine could do: so every set of instructions gives the same bits.
+// Multiplications and additions are never fused, whatever the machine could do: so every set of instructions gives the same
+// bits.
 #if defined(CAMBIUM_BLOBTREE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAMBIUM_BLOBTREE_LANES_INL_H
 #undef CAMBIUM_BLOBTREE_LANES_INL_H
@@ -78,7 +80,9 @@ template <class T> HWY_INLINE void store_floats(Lanes<T> a, float* to) {
   }
 }
 
-template <class T> HWY_INLINE Lanes<T> select(Condition<T> c, Lanes<T> a, Lanes<T> b) { return Lanes<T>(hn::IfThenElse(c.m, a.v, b.v)); }
+template <class T> HWY_INLINE Lanes<T> select(Condition<T> c, Lanes<T> a, Lanes<T> b) {
+  return Lanes<T>(hn::IfThenElse(c.m, a.v, b.v));
+}
 template <class T> HWY_INLINE Lanes<T> or_zero(Condition<T> c, Lanes<T> a) { return Lanes<T>(hn::IfThenElseZero(c.m, a.v)); }
 template <class T> HWY_INLINE Lanes<T> smaller(Lanes<T> a, Lanes<T> b) { return Lanes<T>(hn::Min(a.v, b.v)); }
 template <class T> HWY_INLINE Lanes<T> larger(Lanes<T> a, Lanes<T> b) { return Lanes<T>(hn::Max(a.v, b.v)); }
@@ -92,8 +96,12 @@ struct LaneDual {
   HWY_INLINE explicit LaneDual(T value) : f(value), x(0), y(0), z(0) {}
   HWY_INLINE LaneDual(Lanes<T> value, Lanes<T> gx, Lanes<T> gy, Lanes<T> gz) : f(value), x(gx), y(gy), z(gz) {}
 
-  friend HWY_INLINE LaneDual operator+(const LaneDual& a, const LaneDual& b) { return {a.f + b.f, a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend HWY_INLINE LaneDual operator-(const LaneDual& a, const LaneDual& b) { return {a.f - b.f, a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend HWY_INLINE LaneDual operator+(const LaneDual& a, const LaneDual& b) {
+    return {a.f + b.f, a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+  friend HWY_INLINE LaneDual operator-(const LaneDual& a, const LaneDual& b) {
+    return {a.f - b.f, a.x - b.x, a.y - b.y, a.z - b.z};
+  }
   friend HWY_INLINE LaneDual operator*(const LaneDual& a, const LaneDual& b) {
     return {a.f * b.f, a.f * b.x + b.f * a.x, a.f * b.y + b.f * a.y, a.f * b.z + b.f * a.z};
   }
@@ -122,12 +130,20 @@ template <class T> struct NumberOf<LaneDual<T>> { using type = T; };
 template <class T>
 struct LaneVector {
   Lanes<T> x, y, z;
-  friend HWY_INLINE LaneVector operator-(const LaneVector& a, const LaneVector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend HWY_INLINE LaneVector operator+(const LaneVector& a, const LaneVector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend HWY_INLINE LaneVector operator-(const LaneVector& a, const LaneVector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
+  friend HWY_INLINE LaneVector operator+(const LaneVector& a, const LaneVector& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
   friend HWY_INLINE LaneVector operator*(Lanes<T> s, const LaneVector& a) { return {s * a.x, s * a.y, s * a.z}; }
 };
-template <class T> HWY_INLINE Lanes<T> dot(const LaneVector<T>& a, const LaneVector<T>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-template <class T> HWY_INLINE LaneVector<T> broadcast(const T (&v)[3]) { return {Lanes<T>(v[0]), Lanes<T>(v[1]), Lanes<T>(v[2])}; }
+template <class T> HWY_INLINE Lanes<T> dot(const LaneVector<T>& a, const LaneVector<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T> HWY_INLINE LaneVector<T> broadcast(const T (&v)[3]) {
+  return {Lanes<T>(v[0]), Lanes<T>(v[1]), Lanes<T>(v[2])};
+}
 template <class T> HWY_INLINE LaneVector<T> select(Condition<T> c, const LaneVector<T>& a, const LaneVector<T>& b) {
   return {select(c, a.x, b.x), select(c, a.y, b.y), select(c, a.z, b.z)};
 }

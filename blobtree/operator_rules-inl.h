@@ -1,5 +1,5 @@
-// The operators of field.md section 4, written once for every kind of value: numbers, numbers with gradients, and vector lanes
-// of either. Text for the middle of a namespace, hence no include guard: operators.h includes it for numbers, and
+// The operators of field.md section 4, written once for every kind of value: numbers, numbers with gradients, and vector
+// lanes of either. Text for the middle of a namespace, hence no include guard: operators.h includes it for numbers, and
 // batch_kernels.cpp once for each set of vector instructions. The namespace supplies
 //   NumberOf<N>::type        the number T that N is made of
 //   value_of(n)              its value without gradient, which can be compared
@@ -8,8 +8,8 @@
 //   power(n, e)              n^e for n >= 0
 //   CAMBIUM_RULE, CAMBIUM_RULE_LAMBDA   what the compiler is to know of a function, and of a lambda
 //   Operands<N>              children by index, and offset by +; Weights<N> likewise for a fork
-// `with_zero` says that a child is left out because it is 0 here; every rule gives the same bits whether a zero child is given or
-// left out.
+// `with_zero` says that a child is left out because it is 0 here; every rule gives the same bits whether a zero child is
+// given or left out.
 
 template <class N>
 CAMBIUM_RULE N sum_of(Operands<N> f, std::size_t n) {
@@ -119,8 +119,8 @@ CAMBIUM_RULE N smooth_step(const N& t) {
   return select(value_of(t) <= 0, N(0), select(value_of(t) >= 1, N(1), inner));
 }
 
-/// Where a lateral is in contact (1) and where it melts into its axis (0): field.md section 4, `fork`. `along` is the point's
-/// distance from the branching point in the lateral's direction, `away` its distance from there.
+/// Where a lateral is in contact (1) and where it melts into its axis (0): field.md section 4, `fork`. `along` is the
+/// point's distance from the branching point in the lateral's direction, `away` its distance from there.
 template <class N, class T>
 CAMBIUM_RULE N contact_weight(const N& along, const N& away, T half_per_softness, T reach, T per_reach) {
   const N in_crotch = smooth_step(N(T(0.5)) + along * half_per_softness);
@@ -130,7 +130,8 @@ CAMBIUM_RULE N contact_weight(const N& along, const N& away, T half_per_softness
 
 /// `axis` is 0 where it is not active; weights[k] belongs to f[k].
 template <class N>
-CAMBIUM_RULE N fork_of(const N& axis, Operands<N> f, Weights<N> weights, std::size_t n, bool with_zero, double width, double lip) {
+CAMBIUM_RULE N fork_of(const N& axis, Operands<N> f, Weights<N> weights, std::size_t n, bool with_zero,
+                       double width, double lip) {
   N total(0), weighted(0);
   for (std::size_t k = 0; k < n; ++k) {
     const N x = f[k];

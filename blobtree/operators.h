@@ -1,5 +1,5 @@
-// The operators of field.md section 4 over the values of their active children, for double, float, or a Dual of them, and bounds
-// of the same over intervals. `with_zero` says that a child is left out because it is 0 here.
+// The operators of field.md section 4 over the values of their active children, for double, float, or a Dual of them, and
+// bounds of the same over intervals. `with_zero` says that a child is left out because it is 0 here.
 #pragma once
 
 #include "blobtree/blobtree.h"
@@ -40,8 +40,8 @@ Interval difference_of(const Interval& first, const Interval* taken, std::size_t
 Interval ricci_of(const Interval* f, std::size_t n, double exponent);
 Interval contact_of(const Interval* f, std::size_t n, bool with_zero, double width, double lip);
 Interval lateral_contact_weight_interval(const Lateral& lateral, const Ball& ball);
-Interval fork_of(const Interval& axis, const Interval* f, const Interval* weights, std::size_t n, bool with_zero, double width,
-                 double lip);
+Interval fork_of(const Interval& axis, const Interval* f, const Interval* weights, std::size_t n,
+                 bool with_zero, double width, double lip);
 Interval scaled(const Interval& f, double factor);
 
 }  // namespace cambium

@@ -1,5 +1,5 @@
-// Float batches where float is weak: thin twigs far from the origin, wide trees. And whatever the vector instructions, the number of
-// points and what the evaluator did before: the same bits.
+// Float batches where float is weak: thin twigs far from the origin, wide trees. And whatever the vector instructions, the
+// number of points and what the evaluator did before: the same bits.
 #include "blobtree/batch_kernels.h"
 #include "blobtree/field.h"
 #include "conformance_cases.h"
@@ -127,7 +127,8 @@ std::vector<std::int64_t> vector_targets() {
   return targets;   // the best first, plain C++ last
 }
 
-/// Points in a box and what a batch says of them. Arrays begin `shift` floats into their memory, so that they are not aligned.
+/// Points in a box and what a batch says of them. Arrays begin `shift` floats into their memory, so that they are not
+/// aligned.
 struct PointBatch {
   PointBatch(const PrunedField& field, Draws& draws, std::size_t n, std::size_t shift) : n_(n), shift_(shift) {
     for (std::vector<float>* v : {&x, &y, &z, &f, &gx, &gy, &gz}) v->resize(n + shift, -7.0f);
@@ -150,7 +151,8 @@ struct PointBatch {
 
 void expect_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
   ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(std::bit_cast<std::uint32_t>(a[i]), std::bit_cast<std::uint32_t>(b[i])) << i;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    ASSERT_EQ(std::bit_cast<std::uint32_t>(a[i]), std::bit_cast<std::uint32_t>(b[i])) << i;
 }
 
 TEST(Batch, EverySetOfVectorInstructionsGivesTheSameBits) {
@@ -213,7 +215,8 @@ TEST(Batch, PointsDoNotKnowTheirNeighbours) {
       const std::size_t from = static_cast<std::size_t>(draws.below(static_cast<int>(200 - n)));
       std::vector<float> f(n + 1, -7.0f), gx = f, gy = f, gz = f;
       const auto part = [&](const std::vector<float>& v) { return std::span<const float>(v).subspan(from, n); };
-      evaluator.samples(pruned, part(all.x), part(all.y), part(all.z), {f.data(), n}, {gx.data(), n}, {gy.data(), n}, {gz.data(), n});
+      evaluator.samples(pruned, part(all.x), part(all.y), part(all.z), {f.data(), n}, {gx.data(), n},
+                        {gy.data(), n}, {gz.data(), n});
       for (std::size_t i = 0; i < n; ++i) {
         ASSERT_EQ(f[i], all.f[from + i]);
         ASSERT_EQ(gx[i], all.gx[from + i]);
@@ -232,7 +235,8 @@ TEST(Batch, OnePrimitiveInACellAgreesWithPointsToAMillionth) {
     const Vec3 a = 0.03 * d.direction(), u = d.direction();
     Chain chain;
     for (int i = -4; i <= 4; ++i) chain.nodes.push_back({a + 0.06 * i * u + 0.005 * d.direction(), 0.05 - 0.002 * i});
-    return std::vector<Node>{Cone{a - 0.4 * u, a + 0.4 * u, 0.08, 0.05, 1}, Sphere{a, 0.05, 1}, Capsule{a - u, a + 0.1 * u, 0.05, -1},
+    return std::vector<Node>{Cone{a - 0.4 * u, a + 0.4 * u, 0.08, 0.05, 1}, Sphere{a, 0.05, 1},
+                             Capsule{a - u, a + 0.1 * u, 0.05, -1},
                              Disc{a, u, 0.04, 0.05, 1}, Torus{a + 0.2 * d.direction(), u, 0.2, 0.05, 1},
                              RotatedBox{a, {0.02, 0.03, 0.04}, {1, u.x, u.y, u.z}, 0.05, 1}, chain};
   };
@@ -257,7 +261,8 @@ TEST(Batch, OnePrimitiveInACellAgreesWithPointsToAMillionth) {
   EXPECT_GT(telling, 10000);
 }
 
-// An evaluator keeps what it made of the last field: whatever else has come to stand in its place, it must not be taken for it.
+// An evaluator keeps what it made of the last field: whatever else has come to stand in its place, it must not be taken for
+// it.
 TEST(Batch, AnEvaluatorIsNotMisledByTheLastField) {
   Evaluator kept;
   Draws draws(5);
@@ -293,8 +298,8 @@ TEST(Batch, MayWriteOverItsPoints) {
   PointBatch apart(pruned, draws, 1000, 1), over = apart;
   Evaluator evaluator;
   apart.samples(evaluator, pruned);
-  evaluator.samples(pruned, over.of(over.x), over.of(over.y), over.of(over.z), over.of(over.f), over.of(over.x), over.of(over.y),
-                    over.of(over.z));
+  evaluator.samples(pruned, over.of(over.x), over.of(over.y), over.of(over.z), over.of(over.f), over.of(over.x),
+                    over.of(over.y), over.of(over.z));
   expect_same_bits(apart.f, over.f);
   for (std::size_t i = 1; i < 1001; ++i) ASSERT_EQ(apart.gy[i], over.y[i]);
 }
