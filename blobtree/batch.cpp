@@ -67,7 +67,8 @@ void Evaluator::values(const PrunedField& field, std::span<const float> x, std::
 }
 
 void Evaluator::samples(const PrunedField& field, std::span<const float> x, std::span<const float> y,
-                        std::span<const float> z, std::span<float> f, std::span<float> gx, std::span<float> gy, std::span<float> gz) {
+                        std::span<const float> z, std::span<float> f, std::span<float> gx, std::span<float> gy,
+                        std::span<float> gz) {
   check_lengths(x.size(), {y.size(), z.size(), f.size(), gx.size(), gy.size(), gz.size()});
   if (field.empty()) {
     for (const std::span<float> out : {f, gx, gy, gz}) std::fill(out.begin(), out.end(), 0.0f);
