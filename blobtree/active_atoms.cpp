@@ -132,7 +132,7 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
                           std::array<ActiveAtoms, kChildren>& children) {
   // Children are halves; what they are centred at and how far they reach.
   const Vec3 middle = cube.center(), quarter = 0.25 * cube.size();
-  ChildCenters centers;
+  BallCenters centers;
   std::array<Ball, kChildren> balls;
   for (std::size_t k = 0; k < kChildren; ++k) {
     for (int a = 0; a < 3; ++a) balls[k].center[a] = centers[a][k] = middle[a] + (k >> a & 1 ? quarter[a] : -quarter[a]);
@@ -166,7 +166,7 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
       if (touched[i] != 0) segments_[count++] = tree.segment_of(block[i]);
     }
     bound_swept_ratios(segments_.data(), count, centers, radius, bounds_.data());
-    const ChildBounds* ratio = bounds_.data();
+    const BallBounds* ratio = bounds_.data();
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (touched[i] == 0) continue;
       const std::uint32_t atom = block[i], id = tree.node_of_atom[atom];

@@ -29,6 +29,8 @@ struct ActiveAtoms {
 /// its segments, so leaving out the others changes no bit. Cost: linear in candidates.
 void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& box, ActiveAtoms& active);
 
+inline constexpr std::size_t kChildren = kBalls;   ///< of a cube
+
 /// The same for the eight children of a cube at once. Child k lies on the high side of axis a where bit a of k is set.
 class ChildSplitter {
  public:
@@ -37,7 +39,7 @@ class ChildSplitter {
 
  private:
   std::vector<SweptSegment<double>> segments_;
-  std::vector<ChildBounds> bounds_;
+  std::vector<BallBounds> bounds_;
 };
 
 }  // namespace cambium

@@ -5,6 +5,7 @@
 #include "blobtree/field.h"
 #include "blobtree/interpreter.h"
 #include "blobtree/surface_traits.h"
+#include "blobtree/swept_bounds.h"
 
 #include <cstddef>
 #include <memory>
@@ -51,6 +52,7 @@ struct Evaluator::Scratch {
   GatheredShapes shapes;
   std::vector<Vec3> points;                 ///< the query point in each frame, frame 0 first
   std::vector<UnwarpedBall> balls;
+  std::vector<BallBounds> row;              ///< of segments, by slot
   TapeScratch<double> numbers;
   TapeScratch<Dual<double>> duals;
   TapeScratch<Interval> intervals;

@@ -59,20 +59,20 @@ HWY_INLINE void bound_some(const SweptSegment<double>& k, const LaneVector<doubl
   store(smaller(at_center, larger(zero, least)), lo);
 }
 
-void swept_ratio_bounds(const SweptSegment<double>* segments, std::size_t count, const ChildCenters& centers, double radius,
-                        ChildBounds* bounds) {
+void swept_ratio_bounds(const SweptSegment<double>* segments, std::size_t count, const BallCenters& centers, double radius,
+                        BallBounds* bounds) {
   constexpr std::size_t kStep = lane_count<double>();
-  static_assert(kChildren % kStep == 0);
-  alignas(64) double x[kChildren], y[kChildren], z[kChildren], lo[kChildren], hi[kChildren];
+  static_assert(kBalls % kStep == 0);
+  alignas(64) double x[kBalls], y[kBalls], z[kBalls], lo[kBalls], hi[kBalls];
   std::copy(centers[0].begin(), centers[0].end(), x);
   std::copy(centers[1].begin(), centers[1].end(), y);
   std::copy(centers[2].begin(), centers[2].end(), z);
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t c = 0; c < kChildren; c += kStep) {
+    for (std::size_t c = 0; c < kBalls; c += kStep) {
       bound_some(segments[i], {load(x + c), load(y + c), load(z + c)}, radius, lo + c, hi + c);
     }
-    std::copy(lo, lo + kChildren, bounds[i].lo.begin());
-    std::copy(hi, hi + kChildren, bounds[i].hi.begin());
+    std::copy(lo, lo + kBalls, bounds[i].lo.begin());
+    std::copy(hi, hi + kBalls, bounds[i].hi.begin());
   }
 }
 
@@ -85,8 +85,8 @@ HWY_AFTER_NAMESPACE();
 namespace cambium {
 
 HWY_EXPORT(swept_ratio_bounds);
-void bound_swept_ratios(const SweptSegment<double>* segments, std::size_t count, const ChildCenters& centers, double radius,
-                        ChildBounds* bounds) {
+void bound_swept_ratios(const SweptSegment<double>* segments, std::size_t count, const BallCenters& centers, double radius,
+                        BallBounds* bounds) {
   HWY_DYNAMIC_DISPATCH(swept_ratio_bounds)(segments, count, centers, radius, bounds);
 }
 

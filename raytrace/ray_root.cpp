@@ -51,8 +51,9 @@ std::optional<RaySegment> clip(const Ray& ray, const Box& box, const RaySegment&
   return part;
 }
 
-// A march whose step is what the interval last proved: doubled after a proof, halved after a failure. That is bisection,
-// nearest stretch first, with the unfinished stretches implied by (t, step) instead of kept on a stack.
+// A march by stretches of eight steps. What the interval proves empty is passed at once; where it fails the next stretch is as
+// long as the step that failed, and after a proof of all eight it is doubled. That is a search of an eight-fold tree, nearest
+// branch first, with the unfinished branches implied by (t, stretch) instead of kept on a stack.
 std::optional<double> first_root(Evaluator& evaluator, const PrunedField& field, const Ray& ray, const RaySegment& segment) {
   const double length = segment.end - segment.begin;
   const double radius = field.smallest_radius() < kInfinity ? field.smallest_radius() : glm::length(field.box().size());
@@ -60,24 +61,25 @@ std::optional<double> first_root(Evaluator& evaluator, const PrunedField& field,
 
   double t = segment.begin;
   if (evaluator.value(field, ray.at(t)) >= kIso) return t;
-  double step = length;
+  double stretch = length;
   while (t < segment.end) {
-    const double next = std::min(t + step, segment.end);
+    const double next = std::min(t + stretch, segment.end);
     const double span = next - t;
     if (span > shortest) {
-      const Interval range = evaluator.interval(field, Ball{ray.at(t + 0.5 * span), 0.5 * span});
-      if (range.hi < kIso) {
+      const int outside = evaluator.outside_along(field, ray.at(t), ray.at(next));
+      if (outside == 8) {
         t = next;
-        step = 2 * span;
+        stretch = 2 * span;
       } else {
-        step = std::max(0.5 * span, 0.999 * shortest);  // below `shortest` at the latest after log2 halvings
+        t += outside * (span / 8);
+        stretch = std::max(span / 8, 0.999 * shortest);   // below `shortest` at the latest after log8 failures
       }
       continue;
     }
     if (evaluator.value(field, ray.at(next)) >= kIso) return refine(evaluator, field, ray, t, next, tolerance);
     if (!(next > t)) return std::nullopt;
     t = next;
-    step = 2 * shortest;
+    stretch = 2 * shortest;
   }
   return std::nullopt;
 }
