@@ -146,7 +146,6 @@ Interval half_space_interval(const CompiledHalfSpace& h, const Ball& ball) {
 NativeAxis native_axis(const CompiledPrimitive& primitive) {
   return std::visit([](const auto& shape) { return axis_of(shape); }, primitive.shape);
 }
-NativeAxis native_axis(const SweptSegment<double>& segment) { return {segment.a, segment.axis}; }
 
 Vec3 any_normal(const Vec3& axis) {
   return glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));

@@ -191,7 +191,6 @@ struct NativeAxis {
   Vec3 origin, axis;
 };
 NativeAxis native_axis(const CompiledPrimitive& primitive);
-NativeAxis native_axis(const SweptSegment<double>& segment);
 
 /// Support of a chain's segment, in the chain's own space; `ends` as from segment_ends.
 Box segment_support(const ChainNode* ends);

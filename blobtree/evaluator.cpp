@@ -185,9 +185,8 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
     c.branch = tree.leaf_of(node).branch;
     c.order = tree.leaf_of(node).order;
     const Vec3& q = s.points[in.frame];
-    const auto place = [&](std::uint32_t atom, const NativeAxis& native, double along) {
-      const CarriedCoordinates at = tree.coordinates_of(atom);
-      const Vec3 from = q - native.origin;
+    const auto place = [&](const CarriedCoordinates& at, const Vec3& origin, double along) {
+      const Vec3 from = q - origin;
       c.v = at.v + along;
       c.u = turns(std::atan2(glm::dot(from, glm::cross(at.axis, at.u)), glm::dot(from, at.u)));
     };
@@ -204,12 +203,12 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
       const SweptSegment<double>& segment = s.shapes.segments()[winner];
       const double along = closest_parameter(segment, q - segment.a);
       c.radius = segment.radius_at(along);
-      place(view.slots[winner], native_axis(segment), along);
+      place(scratch_->shapes.coordinates(winner), segment.a, along);
     } else {
       const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.data()));
       const NativeAxis native = native_axis(primitive);
       c.radius = tree.radius_of(in.first);
-      place(in.first, native, glm::dot(q - native.origin, native.axis));
+      place(tree.coordinates_of(in.first), native.origin, glm::dot(q - native.origin, native.axis));
     }
     out.push_back(c);
   }

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace cambium {
@@ -22,6 +23,7 @@ class GatheredShapes {
     copy_.resize(tape.array_bytes());
     tape_ = tape.copied_to(copy_.data());
     segments_.resize(tape.slots().size());
+    coordinates_.assign(tape.slots().size(), std::nullopt);
     place_.resize(tape.instructions().size());
     primitives_.clear();
     for (std::size_t i = 0; i < place_.size(); ++i) {
@@ -38,6 +40,11 @@ class GatheredShapes {
   const CompiledPrimitive& primitive(std::size_t at) const { return primitives_[place_[at]]; }
   /// By slot.
   const SweptSegment<double>* segments() const { return segments_.data(); }
+  /// By slot: native coordinates of a chain's segment, worked out when first asked for.
+  const CarriedCoordinates& coordinates(std::size_t slot) {
+    if (!coordinates_[slot]) coordinates_[slot] = tree_->coordinates_of(tape_.slots()[slot]);
+    return *coordinates_[slot];
+  }
 
  private:
   std::shared_ptr<const CompiledTree> tree_;
@@ -45,6 +52,7 @@ class GatheredShapes {
   Tape tape_;
   std::vector<std::uint32_t> place_;
   std::vector<SweptSegment<double>> segments_;
+  std::vector<std::optional<CarriedCoordinates>> coordinates_;
   std::vector<CompiledPrimitive> primitives_;
 };
 
