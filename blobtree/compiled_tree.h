@@ -12,6 +12,7 @@
 #include "blobtree/skeleton_primitives.h"
 #include "blobtree/warps.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <tuple>
@@ -78,14 +79,23 @@ struct CompiledNode {
   Op op = Op::kSum;
   bool subtracted : 1 = false;     ///< taken away by a difference above
   bool can_be_negative : 1 = false;
+  bool can_exceed_one : 1 = false;
   std::uint32_t depth = 0;
   std::uint32_t payload = 0;       ///< index into the array of its op
   std::uint32_t first_child = 0;   ///< into children; of a primitive, into leaves
   std::uint32_t child_count = 0;
   std::uint32_t first_atom = 0;
   std::uint32_t warp = kNone;      ///< nearest warp above: the node's space
-  std::uint32_t structural_above = kNone;  ///< the nearest node above that acts even on a single child
-  std::uint32_t sensitive_above = kNone;   ///< likewise on a child that may be negative
+  std::array<std::uint32_t, 4> acts_above{kNone, kNone, kNone, kNone};   ///< by ValueClass: see below
+};
+
+/// What is known of a value that stands alone under the operators above it. Most of them pass it on as it is: a sum always; a
+/// contact or union of what is not negative; a difference (from its first child) of what is at most 1. acts_above is the nearest
+/// node above that may not.
+struct ValueClass {
+  bool can_be_negative = false;
+  bool can_exceed_one = false;
+  std::size_t index() const { return (can_be_negative ? 1u : 0u) + (can_exceed_one ? 2u : 0u); }
 };
 
 struct CompiledBlend {             ///< contact and fork

@@ -62,10 +62,10 @@ TapeBuilder::Value TapeBuilder::leaf(std::uint32_t atom) {
   const std::uint32_t node = tree_.node_of_atom[atom];
   const CompiledNode& n = tree_.nodes[node];
   tape_.smallest_radius_ = std::min(tape_.smallest_radius_, tree_.radius_of(atom));
-  if (n.op == Op::kChain) return {node, atom, n.can_be_negative, true};
+  if (n.op == Op::kChain) return {node, atom, {n.can_be_negative, n.can_exceed_one}, true};
   emit(n.op, node, n.warp, false, atom, 1);
   tape_.stack_size_ = std::max(tape_.stack_size_, ++depth_);
-  return {node, atom, n.can_be_negative, false};
+  return {node, atom, {n.can_be_negative, n.can_exceed_one}, false};
 }
 
 TapeBuilder::Value TapeBuilder::climb(Value value, std::uint32_t below) {
@@ -73,7 +73,7 @@ TapeBuilder::Value TapeBuilder::climb(Value value, std::uint32_t below) {
   const std::uint32_t floor = below == kNone ? 0 : tree_.nodes[below].depth + 1;
   for (;;) {
     const CompiledNode& n = tree_.nodes[value.node];
-    const std::uint32_t next = value.can_be_negative ? n.sensitive_above : n.structural_above;
+    const std::uint32_t next = n.acts_above[value.may.index()];
     if (next == kNone || tree_.nodes[next].depth < floor) return value;
     value = apply(next, {&value, 1});
   }
@@ -115,26 +115,29 @@ TapeBuilder::Value TapeBuilder::apply(std::uint32_t node, std::span<const Value>
   const auto first = static_cast<std::uint32_t>(slots_.size());
   const auto count = static_cast<std::uint32_t>(children.size());
   const bool with_zero = count < n.child_count;
-  Value result{node, children[0].atom, false, false};
+  Value result{node, children[0].atom, {n.can_be_negative, n.can_exceed_one}, false};
   if (n.op == Op::kChain) {
     for (const Value& c : children) slots_.push_back(c.atom);
     emit(n.op, node, n.warp, false, first, count);
     tape_.stack_size_ = std::max(tape_.stack_size_, ++depth_);
-    result.can_be_negative = n.can_be_negative;
     return result;
   }
-  bool any = false, all = true;
+  bool any = false, all = true, any_exceeds = false, all_exceed = true;
   for (const Value& c : children) {
-    any = any || c.can_be_negative;
-    all = all && c.can_be_negative;
+    any = any || c.may.can_be_negative;
+    all = all && c.may.can_be_negative;
+    any_exceeds = any_exceeds || c.may.can_exceed_one;
+    all_exceed = all_exceed && c.may.can_exceed_one;
   }
+  const bool blend_exceeds = count == 1 ? any_exceeds : n.can_exceed_one;
   switch (n.op) {
-    case Op::kSum: result.can_be_negative = any; break;
-    case Op::kUnion:
-    case Op::kContact: result.can_be_negative = all && !with_zero; break;
-    case Op::kIntersection: result.can_be_negative = any; break;
-    case Op::kWarp: result.can_be_negative = any; break;
-    default: result.can_be_negative = n.can_be_negative;
+    case Op::kSum: result.may = {any, blend_exceeds}; break;
+    case Op::kUnion: result.may = {all && !with_zero, any_exceeds}; break;
+    case Op::kContact: result.may = {all && !with_zero, blend_exceeds}; break;
+    case Op::kIntersection: result.may = {any, all_exceed && !with_zero}; break;
+    case Op::kWarp: result.may = {any, any_exceeds}; break;
+    case Op::kFork: result.may.can_exceed_one = blend_exceeds; break;
+    default: break;   // of a difference see below; the others as anywhere
   }
   const bool identity = count == 1 && (n.op == Op::kSum || ((n.op == Op::kUnion || n.op == Op::kContact) && (!any || !with_zero)));
   if (identity) return result;
@@ -145,8 +148,9 @@ TapeBuilder::Value TapeBuilder::apply(std::uint32_t node, std::span<const Value>
       slots_.resize(first);
       return result;
     }
-    const std::uint32_t others = count - (has_first ? 1 : 0);
-    emit(n.op, node, n.warp, others < n.child_count - 1, first, count);
+    const bool other_is_zero = count - (has_first ? 1 : 0) < n.child_count - 1;
+    if (n.op == Op::kDifference) result.may.can_exceed_one = has_first && children[0].may.can_exceed_one && !other_is_zero;
+    emit(n.op, node, n.warp, other_is_zero, first, count);
   } else {
     emit(n.op, node, n.op == Op::kWarp ? node : n.warp, with_zero, first, count);
   }

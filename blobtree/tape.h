@@ -3,7 +3,8 @@
 // The tape is postfix: primitives push a value, operators replace their active children by one. Operators are rebuilt bottom-up
 // from lowest common ancestors of neighbouring atoms, so the cost is that of the active atoms and of the operators that act on a
 // single child, never that of the tree's depth. An operator above a single active child stays only if it could change it:
-// a sum of one is its child; a contact of one is its child unless the child may be negative (field.md section 4).
+// a sum of one is its child; a contact of one is its child unless the child may be negative; a difference of which nothing is taken
+// away here is its first child unless that may exceed 2 c = 1 (field.md section 4).
 #pragma once
 
 #include "blobtree/compiled_tree.h"
@@ -85,7 +86,7 @@ class TapeBuilder {
   struct Value {              ///< what stands on top of the tape's stack
     std::uint32_t node = 0;   ///< whose value it is
     std::uint32_t atom = 0;   ///< one atom below it, which tells the slot in any ancestor
-    bool can_be_negative = false;
+    ValueClass may;
     bool is_segment = false;  ///< not a value yet: one segment of the chain `node`
   };
   struct Open {               ///< an operator whose active children are being collected, from `first` in collected_

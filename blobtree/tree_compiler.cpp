@@ -24,9 +24,12 @@ class TreeCompiler {
     end_atom_.resize(count_);
     range_.resize(count_);
     for (NodeId id = 0; id < count_; ++id) compile_node(id);
-    for (NodeId id = 0; id < count_; ++id) set_range(id);
+    for (NodeId id = 0; id < count_; ++id) {
+      set_range(id);
+      node(id).can_exceed_one = range_[id].hi > 1;
+    }
     number_atoms();
-    for (NodeId id = count_; id-- > 0;) set_keepers(id);
+    for (NodeId id = count_; id-- > 0;) set_acting(id);
     bound_supports();
     bound_atoms();
     shrink();
@@ -192,16 +195,20 @@ class TreeCompiler {
     tree_.ancestors = AncestorIndex(std::move(shared), std::move(shared_depth));
   }
 
-  void set_keepers(NodeId id) {  // parents have larger ids
+  void set_acting(NodeId id) {  // parents have larger ids
     const NodeId above = parent_[id];
     if (above == kNone) return;
     CompiledNode& n = node(id);
     const CompiledNode& p = node(above);
-    const bool structural = p.op == Op::kIntersection || p.op == Op::kDifference || p.op == Op::kRicci || p.op == Op::kScale ||
-                            p.op == Op::kWarp;
-    const bool sensitive = structural || ((p.op == Op::kUnion || p.op == Op::kContact) && p.child_count > 1) || p.op == Op::kFork;
-    n.structural_above = structural ? above : p.structural_above;
-    n.sensitive_above = sensitive ? above : p.sensitive_above;
+    const bool always = p.op == Op::kIntersection || p.op == Op::kRicci || p.op == Op::kScale || p.op == Op::kWarp;
+    const bool on_negative = ((p.op == Op::kUnion || p.op == Op::kContact) && p.child_count > 1) || p.op == Op::kFork;
+    const bool taken_away = p.op == Op::kDifference && children(p)[0] != id;
+    for (const bool negative : {false, true})
+      for (const bool exceeding : {false, true}) {
+        const std::size_t of = ValueClass{negative, exceeding}.index();
+        const bool acts = always || taken_away || (negative && on_negative) || (exceeding && p.op == Op::kDifference);
+        n.acts_above[of] = acts ? above : p.acts_above[of];
+      }
   }
 
   static Extents extents_of(const Box& box, const WarpFrame& frame) {

@@ -273,5 +273,29 @@ TEST(PruningCost, IsThatOfTheBoxAndNotOfTheDepth) {
   }
 }
 
+// Every internode's subtree is cut once more: away from the cuts none of them is left, however many are above.
+TEST(PruningCost, CutsThatTakeNothingAwayHereCostNothing) {
+  constexpr int kCuts = 2000;
+  BlobTreeBuilder b;
+  NodeId top = internode(b, kCuts);
+  for (int i = kCuts; i-- > 0;) {
+    const NodeId knife = b.add(Sphere{joint(i) + Vec3(0.5 * kThickness, 0, 0), 0.2 * kThickness, 1});
+    top = b.add(Difference{{b.add(Sum{{internode(b, i), top}}), knife}});
+  }
+  const Field field(b.build(top));
+  Evaluator evaluator;
+  const PrunedField whole = field.whole();
+  std::size_t most = 0;
+  for (const int i : {10, 500, 1990}) {
+    const Vec3 center = joint(i) - Vec3(0.9 * kThickness, 0, 0);
+    const PrunedField pruned = field.prune({center - 0.05 * kThickness, center + 0.05 * kThickness});
+    const Vec3 p = pruned.box().center();
+    EXPECT_GT(pruned.atom_count(), 0u);
+    EXPECT_EQ(evaluator.value(pruned, p), evaluator.value(whole, p));
+    most = std::max(most, pruned.memory_bytes());
+  }
+  EXPECT_LT(most, 1000u);   // of 2,000 instructions of 16 bytes
+}
+
 }  // namespace
 }  // namespace cambium
