@@ -1,4 +1,4 @@
-// The README's C++ example is examples/library_example.cpp, which the package test compiles, links and runs.
+// The README's C++ examples are those of examples/, which the package test compiles, links and runs.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -13,14 +13,17 @@ std::string text_of(const char* name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(Readme, ExampleIsTheOneThatIsCompiled) {
-  const std::string readme = text_of("README.md"), example = text_of("examples/library_example.cpp");
-  ASSERT_FALSE(example.empty());
-  const std::string fence = "```cpp\n";
-  const auto begin = readme.find(fence);
-  ASSERT_NE(begin, std::string::npos);
-  const auto end = readme.find("```", begin + fence.size());
-  EXPECT_EQ(readme.substr(begin + fence.size(), end - begin - fence.size()), example);
+TEST(Readme, ExamplesAreThoseThatAreCompiled) {
+  const std::string readme = text_of("README.md"), fence = "```cpp\n";
+  std::size_t at = 0;
+  for (const char* file : {"examples/library_example.cpp", "examples/field_example.cpp"}) {
+    const std::string example = text_of(file);
+    ASSERT_FALSE(example.empty());
+    const auto begin = readme.find(fence, at);
+    ASSERT_NE(begin, std::string::npos) << file;
+    at = readme.find("```", begin + fence.size());
+    EXPECT_EQ(readme.substr(begin + fence.size(), at - begin - fence.size()), example);
+  }
 }
 
 }  // namespace
