@@ -6,8 +6,8 @@
 namespace cambium {
 namespace {
 
-/// Beyond this normalised distance a chain's segment is 0, with a hair to spare: rounding here never drops a value that rounding
-/// elsewhere finds.
+/// Beyond this normalised distance a chain's segment is 0, with a hair to spare: rounding here never drops a value that
+/// rounding elsewhere finds.
 constexpr double kFar = kSupportPerRadius * (1 + 1e-9);
 
 /// The ball around a box, a hair wider.

@@ -24,9 +24,9 @@ struct ActiveAtoms {
   }
 };
 
-/// Those of `candidates` (ascending) that can be non-zero in the box, by their bounds and, where no warp is in the way, by their
-/// shape. Of a chain's segments only those stay that can be the nearest one somewhere in the box: the chain is the minimum over
-/// its segments, so leaving out the others changes no bit. Cost: linear in candidates.
+/// Those of `candidates` (ascending) that can be non-zero in the box, by their bounds and, where no warp is in the way,
+/// by their shape. Of a chain's segments only those stay that can be the nearest one somewhere in the box: the chain is
+/// the minimum over its segments, so leaving out the others changes no bit. Cost: linear in candidates.
 void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& box, ActiveAtoms& active);
 
 inline constexpr std::size_t kChildren = kBalls;   ///< of a cube

@@ -9,8 +9,8 @@
 
 namespace cambium {
 
-/// Bounding volume hierarchy over boxes that their owner keeps. Build O(n log n), in parallel; query O(hits + log n) for boxes that
-/// are spread out.
+/// Bounding volume hierarchy over boxes that their owner keeps. Build O(n log n), in parallel; query O(hits + log n) for
+/// boxes that are spread out.
 class BoxIndex {
  public:
   BoxIndex() = default;

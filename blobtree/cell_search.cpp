@@ -169,7 +169,8 @@ class CellSearch {
     s.splitter.split(tree_, active.atoms, box, children);
     for (int child = 0; child < 8; ++child) {
       const ActiveAtoms& list = children[child];
-      if (!list.empty()) region(s, run, child_of(place, level, child), level - 1, list, list.size() == active.size() ? tape_level : -1);
+      const bool same = list.size() == active.size();
+      if (!list.empty()) region(s, run, child_of(place, level, child), level - 1, list, same ? tape_level : -1);
     }
   }
 
@@ -213,7 +214,8 @@ class VisitingRun : public CellRun {
 bool visit_cells(const Field& field, const CellGrid& grid, Wanted wanted, const CellVisitor& visit, const RunOptions& run,
                  ProgressMeter& progress, const std::atomic<bool>* stop) {
   const CellRule every_cell;
-  return search_cells(field, grid, wanted, every_cell, [&] { return std::make_unique<VisitingRun>(visit); }, run, &progress, stop);
+  const auto make_run = [&] { return std::make_unique<VisitingRun>(visit); };
+  return search_cells(field, grid, wanted, every_cell, make_run, run, &progress, stop);
 }
 
 }  // namespace cambium

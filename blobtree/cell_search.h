@@ -1,9 +1,9 @@
 // Finds the cells of a subdivision of space that a field can matter in, each with the field pruned to it. One mechanism for
 // meshes, volumes and rays: its cost follows the surface, not the box, nor the depth of the tree.
 //
-// An octree is halved from its root. Every region hands its children the atoms active in them, so a child looks only at what its
-// parent kept; where few are left a tape is made, its interval over the region tells whether anything wanted can be there, and
-// children with the same atoms go on using it.
+// An octree is halved from its root. Every region hands its children the atoms active in them, so a child looks only at
+// what its parent kept; where few are left a tape is made, its interval over the region tells whether anything wanted can
+// be there, and children with the same atoms go on using it.
 #pragma once
 
 #include "blobtree/cell_grid.h"
@@ -29,7 +29,7 @@ struct CellRule {
   double radii = 0;                ///< longest edge where many primitives meet; 0: level 0
   double sparse_radii = 0;         ///< the same where at most sparse_atoms are active
   std::size_t sparse_atoms = 0;
-  int task_height = 2;             ///< subtrees expected to be higher than this are shared out to threads: higher, the cheaper a visit
+  int task_height = 2;             ///< higher subtrees are shared out to threads; larger, the cheaper a visit is
 };
 
 struct FoundCell {

@@ -5,7 +5,8 @@
 
 namespace cambium {
 
-/// Adds the payload of one authored node (shapes, chains, blends, warps) and sets op and payload. A round cone is a chain of two.
+/// Adds the payload of one authored node (shapes, chains, blends, warps) and sets op and payload. A round cone is a chain
+/// of two.
 void compile_shape(CompiledTree& tree, CompiledNode& compiled, const Node& node);
 
 /// Projection of the atom's support onto a unit direction, in the atom's own space.

@@ -122,14 +122,17 @@ double CompiledTree::radius_of(std::uint32_t atom) const {
   if (node.op == Op::kHalfSpace) return kInfinity;
   if (node.op == Op::kPrimitive) return primitives.radius(node.payload);
   const ChainNode* const ends = segment_ends(node, atom);
-  return ends[0].position == ends[1].position ? std::max(ends[0].radius, ends[1].radius) : std::min(ends[0].radius, ends[1].radius);
+  const auto [least, most] = std::minmax(ends[0].radius, ends[1].radius);
+  return ends[0].position == ends[1].position ? most : least;
 }
 
 std::size_t CompiledTree::memory_bytes() const {
-  return sizeof(*this) + bytes_of(nodes) + bytes_of(children) + primitives.memory_bytes() + bytes_of(half_spaces) + bytes_of(chains) +
-         bytes_of(chain_nodes) + bytes_of(blends) + bytes_of(laterals) + bytes_of(numbers) + bytes_of(warps) + bytes_of(leaves) +
-         bytes_of(node_of_atom) + bytes_of(run_bounds) + bytes_of(run_begin) + bytes_of(run_first_atom) + index.memory_bytes() +
-         ancestors.memory_bytes();
+  const std::size_t of_nodes = bytes_of(nodes) + bytes_of(children) + bytes_of(blends) + bytes_of(laterals) + bytes_of(numbers) +
+                               bytes_of(warps);
+  const std::size_t of_shapes = primitives.memory_bytes() + bytes_of(half_spaces) + bytes_of(chains) + bytes_of(chain_nodes);
+  const std::size_t of_atoms = bytes_of(leaves) + bytes_of(node_of_atom) + bytes_of(run_bounds) + bytes_of(run_begin) +
+                               bytes_of(run_first_atom);
+  return sizeof(*this) + of_nodes + of_shapes + of_atoms + index.memory_bytes() + ancestors.memory_bytes();
 }
 
 Interval primitive_interval(const CompiledPrimitive& p, const Ball& ball) {

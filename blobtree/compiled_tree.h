@@ -1,9 +1,10 @@
 // A BlobTree compiled for evaluation and pruning. Private to blobtree/.
 //
-// Node ids are those of the BlobTree. Its primitives, with a chain's segments counted singly, are `atoms`, numbered in depth-first
-// order; every operator covers a range of them. Pruning gathers the atoms whose support meets a box and rebuilds the operators
-// above them from lowest common ancestors, so it never walks the depth of the tree (tape.h). A chain is kept as its nodes, 32 bytes
-// each; what evaluation wants of a segment (axis, length, slope) is worked out where a tape is gathered.
+// Node ids are those of the BlobTree. Its primitives, with a chain's segments counted singly, are `atoms`, numbered in
+// depth-first order; every operator covers a range of them. Pruning gathers the atoms whose support meets a box and
+// rebuilds the operators above them from lowest common ancestors, so it never walks the depth of the tree (tape.h). A
+// chain is kept as its nodes, 32 bytes each; what evaluation wants of a segment (axis, length, slope) is worked out where
+// a tape is gathered.
 #pragma once
 
 #include "blobtree/atom_index.h"
@@ -36,7 +37,8 @@ using SkeletonShape = std::variant<PointSkeleton<T>, SegmentSkeleton<T>, ConeSke
 struct CompiledPrimitive {
   CompiledPrimitive() = default;
   CompiledPrimitive(SkeletonShape<double> form, double surface_radius, double factor)
-      : shape(std::move(form)), radius(surface_radius), inverse_support(1 / (kSupportPerRadius * surface_radius)), strength(factor) {}
+      : shape(std::move(form)), radius(surface_radius), inverse_support(1 / (kSupportPerRadius * surface_radius)),
+        strength(factor) {}
 
   SkeletonShape<double> shape;
   double radius = 0;               ///< of the surface
@@ -89,9 +91,9 @@ struct CompiledNode {
   std::array<std::uint32_t, 4> acts_above{kNone, kNone, kNone, kNone};   ///< by ValueClass: see below
 };
 
-/// What is known of a value that stands alone under the operators above it. Most of them pass it on as it is: a sum always; a
-/// contact or union of what is not negative; a difference (from its first child) of what is at most 1. acts_above is the nearest
-/// node above that may not.
+/// What is known of a value that stands alone under the operators above it. Most of them pass it on as it is: a sum
+/// always; a contact or union of what is not negative; a difference (from its first child) of what is at most 1.
+/// acts_above is the nearest node above that may not.
 struct ValueClass {
   bool can_be_negative = false;
   bool can_exceed_one = false;

@@ -46,7 +46,8 @@ class BallPolicy {
 /// One of eight balls in a row, over which the bounds of segments are known.
 class RowPolicy {
  public:
-  RowPolicy(const TapeView& view, const GatheredShapes& shapes, const std::vector<BallBounds>& row, std::size_t at, const Ball& ball)
+  RowPolicy(const TapeView& view, const GatheredShapes& shapes, const std::vector<BallBounds>& row, std::size_t at,
+            const Ball& ball)
       : view_(view), shapes_(shapes), row_(row), at_(at), ball_(ball) {}
 
   Interval primitive(const Instruction& in) const {
@@ -62,7 +63,9 @@ class RowPolicy {
     }
     return chain_interval(ratio, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
   }
-  Interval lateral_weight(const Lateral& lateral, const Instruction&) const { return lateral_contact_weight_interval(lateral, ball_); }
+  Interval lateral_weight(const Lateral& lateral, const Instruction&) const {
+    return lateral_contact_weight_interval(lateral, ball_);
+  }
   Interval warp(const Instruction&, const Interval& f) const { return f; }
 
  private:
@@ -155,8 +158,10 @@ int Evaluator::outside_along(const PrunedField& field, const Vec3& from, const V
   for (std::size_t k = 0; k < kBalls; ++k)
     for (int a = 0; a < 3; ++a) centers[a][k] = ball.center[a] + static_cast<double>(k) * step[a];
   s.row.resize(view.slots.size());
-  for (const Instruction& in : view.tape)
-    if (in.op == Op::kChain) bound_swept_ratios(s.shapes.segments() + in.first, in.count, centers, ball.radius, s.row.data() + in.first);
+  for (const Instruction& in : view.tape) {
+    if (in.op != Op::kChain) continue;
+    bound_swept_ratios(s.shapes.segments() + in.first, in.count, centers, ball.radius, s.row.data() + in.first);
+  }
   int count = 0;
   for (; count < kStretches; ++count) {
     const auto k = static_cast<std::size_t>(count);

@@ -41,7 +41,7 @@ std::size_t Field::memory_bytes() const { return tree_->memory_bytes(); }
 ActiveSet Field::active(const Box& box) const {
   ActiveSet near;
   for (const std::uint32_t run : tree_->index.query(tree_->run_bounds, FloatBox(box)))
-    for (std::uint32_t atom = tree_->run_first_atom[run]; atom < tree_->end_atom_of_run(run); ++atom) near.atoms.push_back(atom);
+    for (std::uint32_t a = tree_->run_first_atom[run]; a < tree_->end_atom_of_run(run); ++a) near.atoms.push_back(a);
   return narrow(near, box);
 }
 

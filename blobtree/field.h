@@ -83,7 +83,7 @@ class Field {
   /// Outside this box the field is exactly 0.
   const Box& bounds() const;
   std::size_t atom_count() const;      ///< primitives, chain segments counted singly
-  std::size_t memory_bytes() const;    ///< of everything held; about 100 per chain segment and 250 per axis
+  std::size_t memory_bytes() const;    ///< of everything held; about 45 per chain segment and 250 per axis with laterals
 
   /// Thread safe; cost: the primitives active at p and a logarithmic search. For many points prune once and use batches.
   double value(const Vec3& p) const;
@@ -121,8 +121,9 @@ class Evaluator {
   /// Conservative over the part of the ball inside field.box().
   Interval interval(const PrunedField& field, const Ball& ball);
   Interval interval(const PrunedField& field, const Box& box);
-  /// How much of a straight way is certainly outside: of eight equal stretches of it, the number of leading ones in which the
-  /// interval stays below kIso. The way must lie in field.box(). Cost: about that of two intervals, where none is warped.
+  /// How much of a straight way is certainly outside: of eight equal stretches of it, the number of leading ones in which
+  /// the interval stays below kIso. The way must lie in field.box(). Cost: about that of two intervals, where none is
+  /// warped.
   int outside_along(const PrunedField& field, const Vec3& from, const Vec3& to);
 
   /// Batches: SoA floats relative to field.origin(), equal lengths. Agree with value()/sample() to 1e-4.

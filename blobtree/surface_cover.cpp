@@ -24,7 +24,9 @@ class SurfaceCover::TapeStore {
   const Tape* add(const Tape& tape) {
     std::uint64_t hash = 0;
     for (const std::uint32_t word : tape.slots()) hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
-    for (const Instruction& in : tape.instructions()) hash = (hash ^ in.first ^ std::uint64_t{in.node} << 32) * 0x9e3779b97f4a7c15u;
+    for (const Instruction& in : tape.instructions()) {
+      hash = (hash ^ in.first ^ std::uint64_t{in.node} << 32) * 0x9e3779b97f4a7c15u;
+    }
     const Tape*& lately = lately_[hash >> (64 - kLatelyBits)];
     if (!lately || !lately->same_arrays(tape)) lately = keep(tape);
     return lately;
@@ -158,6 +160,9 @@ std::size_t SurfaceCover::memory_bytes() const {
 }
 
 std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions& options, const RunOptions& run) {
+  for (const double radii : {options.cell_radii, options.sparse_radii}) {
+    if (!(radii > 0) || !std::isfinite(radii)) throw InputError({}, fmt::format("cells of {:g} radii", radii), "a finite number above 0");
+  }
   SurfaceCover cover;
   cover.tree_ = field.tree_;
   if (field.bounds().empty()) return cover;
@@ -176,13 +181,14 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
     CoverRun::Shared shared{*field.tree_, options.max_cells, {}, {}, {}, {}};
     bool complete = false;
     arena.execute([&] {
-      complete = search_cells(field, cover.grid_, Wanted::kSurface, rule, [&] { return std::make_unique<CoverRun>(shared); }, run,
-                              &progress, &shared.too_many);
+      const auto make_run = [&] { return std::make_unique<CoverRun>(shared); };
+      complete = search_cells(field, cover.grid_, Wanted::kSurface, rule, make_run, run, &progress, &shared.too_many);
     });
     if (run.cancelled()) return std::nullopt;
     if (!complete) {
       if (options.cell) {
-        throw InputError({}, fmt::format("cells of {:g} m", *options.cell), fmt::format("a size that gives at most {} cells", options.max_cells));
+        throw InputError({}, fmt::format("cells of {:g} m", *options.cell),
+                         fmt::format("a size that gives at most {} cells", options.max_cells));
       }
       rule.radii *= 1.5;
       rule.sparse_radii *= 1.5;

@@ -15,12 +15,13 @@ namespace cambium {
 struct CoverOptions {
   /// Edge of every cell, metres. Unset: cells follow the branches, by the lengths below.
   std::optional<double> cell;
-  /// In smallest active surface radii of the cell itself, so a trunk gets large cells and a twig small ones: its longest edge where
-  /// many primitives meet, and where at most sparse_atoms are active: a straight thin twig needs few cells.
+  /// In smallest active surface radii of the cell itself, so a trunk gets large cells and a twig small ones: its longest
+  /// edge where many primitives meet, and where at most sparse_atoms are active: a straight thin twig needs few cells.
   double cell_radii = 1.6;
   double sparse_radii = 8;
   std::size_t sparse_atoms = 4;
-  /// Where the lengths above would give more, they are raised for all cells: rays get slower, never wrong. With `cell` set: an error.
+  /// Where the lengths above would give more, they are raised for all cells: rays get slower, never wrong. With `cell`
+  /// set: an error.
   std::size_t max_cells = 60'000'000;
 };
 
@@ -56,8 +57,8 @@ class SurfaceCover {
   std::size_t tape_count_ = 0;
 };
 
-/// Cells in Morton order. nullopt if cancelled. The same at any thread count. Errors: InputError for a cell size that is not a
-/// length, too fine for the field's bounds, or giving more than max_cells. Cost and memory: proportional to the cells.
+/// Cells in Morton order. nullopt if cancelled. The same at any thread count. Errors: InputError for a cell size that is
+/// not a length, too fine for the field's bounds, or giving more than max_cells. Cost and memory: proportional to the cells.
 std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions& options, const RunOptions& run);
 
 }  // namespace cambium

@@ -1,5 +1,6 @@
+// Compiled for the same sets of vector instructions as batch_kernels.cpp.
 #ifndef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)   // as in batch_kernels.cpp
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #endif
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "blobtree/swept_bounds.cpp"
@@ -16,7 +17,8 @@ namespace cambium {
 namespace HWY_NAMESPACE {
 
 /// swept_ratio_interval(), which says why, in lanes.
-HWY_INLINE void bound_some(const SweptSegment<double>& k, const LaneVector<double>& center, double radius, double* lo, double* hi) {
+HWY_INLINE void bound_some(const SweptSegment<double>& k, const LaneVector<double>& center, double radius, double* lo,
+                           double* hi) {
   using V = Lanes<double>;
   const V begin(k.begin), end(k.end), slope(k.slope), zero(0.0), one(1.0), rho(radius);
   const LaneVector<double> axis{V(k.axis.x), V(k.axis.y), V(k.axis.z)};

@@ -1,10 +1,10 @@
 // From the atoms active in a box to the smallest tape that gives the same values there. Private to blobtree/.
 //
-// The tape is postfix: primitives push a value, operators replace their active children by one. Operators are rebuilt bottom-up
-// from lowest common ancestors of neighbouring atoms, so the cost is that of the active atoms and of the operators that act on a
-// single child, never that of the tree's depth. An operator above a single active child stays only if it could change it:
-// a sum of one is its child; a contact of one is its child unless the child may be negative; a difference of which nothing is taken
-// away here is its first child unless that may exceed 2 c = 1 (field.md section 4).
+// The tape is postfix: primitives push a value, operators replace their active children by one. Operators are rebuilt
+// bottom-up from lowest common ancestors of neighbouring atoms, so the cost is that of the active atoms and of the
+// operators that act on a single child, never that of the tree's depth. An operator above a single active child stays
+// only if it could change it: a sum of one is its child; a contact of one is its child unless the child may be negative;
+// a difference of which nothing is taken away here is its first child unless that may exceed 2 c = 1 (field.md section 4).
 #pragma once
 
 #include "blobtree/compiled_tree.h"
@@ -79,7 +79,8 @@ class OwnedTape {
 class TapeBuilder {
  public:
   explicit TapeBuilder(const CompiledTree& tree) : tree_(tree) {}
-  /// `atoms` ascending. The tape's arrays are valid until the next call. Errors: std::length_error for more than 65535 warps.
+  /// `atoms` ascending. The tape's arrays are valid until the next call. Errors: std::length_error for more than 65535
+  /// warps.
   const Tape& build(std::span<const std::uint32_t> atoms);
 
  private:

@@ -130,7 +130,8 @@ class TreeCompiler {
       tree_.run_begin.push_back(at);
     };
     if (n.op != Op::kChain) {
-      begin_run(n.first_atom, begin_with(n.op == Op::kHalfSpace ? Vec3(0, 0, 1) : native_axis(tree_.primitive_of(n)).axis).at_atom());
+      const Vec3 axis = n.op == Op::kHalfSpace ? Vec3(0, 0, 1) : native_axis(tree_.primitive_of(n)).axis;
+      begin_run(n.first_atom, begin_with(axis).at_atom());
       tree_.node_of_atom.push_back(id);
       return;
     }
@@ -242,8 +243,8 @@ class TreeCompiler {
   void bound_supports() {
     support_.resize(count_);
     atom_boxes_.resize(tree_.atom_count());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(atom_boxes_.size()), 1024), [&](const auto& part) {
-      for (std::uint32_t a = part.begin(); a != part.end(); ++a) atom_boxes_[a] = own_box(tree_, a);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, atom_boxes_.size(), 1024), [&](const auto& part) {
+      for (std::size_t a = part.begin(); a != part.end(); ++a) atom_boxes_[a] = own_box(tree_, static_cast<std::uint32_t>(a));
     });
     if (!tree_.warps.empty()) lifted_boxes_ = atom_boxes_;
     for (NodeId id = 0; id < count_; ++id) {
@@ -337,9 +338,12 @@ class TreeCompiler {
       return FloatBox(box);
     };
     tree_.run_bounds.resize(tree_.run_begin.size());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(tree_.run_bounds.size()), 256), [&](const auto& part) {
-      for (std::uint32_t run = part.begin(); run != part.end(); ++run)
-        for (std::uint32_t a = tree_.run_first_atom[run]; a < tree_.end_atom_of_run(run); ++a) tree_.run_bounds[run].extend(bound(a));
+    const auto runs = static_cast<std::uint32_t>(tree_.run_bounds.size());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, runs, 256), [&](const auto& part) {
+      for (std::uint32_t run = part.begin(); run != part.end(); ++run) {
+        FloatBox& box = tree_.run_bounds[run];
+        for (std::uint32_t a = tree_.run_first_atom[run]; a < tree_.end_atom_of_run(run); ++a) box.extend(bound(a));
+      }
     });
     tree_.index = BoxIndex(tree_.run_bounds);
   }

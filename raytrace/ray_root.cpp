@@ -51,9 +51,9 @@ std::optional<RaySegment> clip(const Ray& ray, const Box& box, const RaySegment&
   return part;
 }
 
-// A march by stretches of eight steps. What the interval proves empty is passed at once; where it fails the next stretch is as
-// long as the step that failed, and after a proof of all eight it is doubled. That is a search of an eight-fold tree, nearest
-// branch first, with the unfinished branches implied by (t, stretch) instead of kept on a stack.
+// A march by stretches of eight steps. What the interval proves empty is passed at once; where it fails the next stretch
+// is as long as the step that failed, and after a proof of all eight it is doubled. That is a search of an eight-fold
+// tree, nearest branch first, with the unfinished branches implied by (t, stretch) instead of kept on a stack.
 std::optional<double> first_root(Evaluator& evaluator, const PrunedField& field, const Ray& ray, const RaySegment& segment) {
   const double length = segment.end - segment.begin;
   const double radius = field.smallest_radius() < kInfinity ? field.smallest_radius() : glm::length(field.box().size());

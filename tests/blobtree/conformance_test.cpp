@@ -115,6 +115,29 @@ TEST(Conformance, IntervalsContainEverySample) {
   });
 }
 
+TEST(Conformance, WhatIsOutsideAlongAWayIsOutside) {
+  Evaluator evaluator;
+  std::size_t passed = 0, total = 0;
+  for_each_case([&](const ConformanceCase&, const Field& field, Draws& draws) {
+    const Box whole = sampled_box(field);
+    for (int i = 0; i < 60; ++i) {
+      const Box box = draws.box(whole);
+      const PrunedField pruned = field.prune(box);
+      const Vec3 from = draws.point(box), to = draws.point(box);
+      const int outside = evaluator.outside_along(pruned, from, to);
+      ASSERT_TRUE(outside >= 0 && outside <= 8);
+      for (int k = 0; k < 24; ++k) {
+        if (outside == 0) break;
+        const double t = draws.in(0, outside / 8.0);
+        ASSERT_LT(field.value(glm::mix(from, to, t)), kIso) << "at " << t << " of " << outside << " eighths";
+      }
+      passed += static_cast<std::size_t>(outside);
+      total += 8;
+    }
+  });
+  EXPECT_GT(passed, total / 3);   // or it says little
+}
+
 // A wide interval is legal, but one that never narrows would make every search a dense one.
 TEST(Conformance, IntervalsOfSmallBoxesAreNarrow) {
   Evaluator evaluator;

@@ -95,6 +95,12 @@ TEST(Field, DeepNestsCostNoCallStack) {
   EXPECT_NEAR(field.value({1, 0, 0}), kIso, 1e-9);
 }
 
+TEST(Field, KeepsASegmentInFewBytes) {
+  const std::size_t small = field_of([](auto& b) { return b.add(zigzag(2000)); }).memory_bytes();
+  const std::size_t large = field_of([](auto& b) { return b.add(zigzag(22000)); }).memory_bytes();
+  EXPECT_LT(static_cast<double>(large - small) / 20000, 48.0);   // of which 32 are its node
+}
+
 TEST(Field, KnowsTheSmallestRadiusInABox) {
   const Field field = field_of([](auto& b) {
     return b.add(Sum{{b.add(Sphere{{0, 0, 0}, 0.3, 1}), b.add(Sphere{{5, 0, 0}, 0.001, 1})}});

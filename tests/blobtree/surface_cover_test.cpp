@@ -373,6 +373,11 @@ TEST(SurfaceCover, RefusesSizesThatCannotBe) {
   CoverOptions options = constant(0.01);
   options.max_cells = 100;
   EXPECT_THROW(cover_surface(field, options, {}), InputError);
+  for (const double radii : {0.0, -1.0, std::nan(""), kInfinity}) {
+    CoverOptions following;
+    following.cell_radii = radii;
+    EXPECT_THROW(cover_surface(field, following, {}), InputError) << radii;
+  }
 }
 
 TEST(SurfaceCover, OfAFieldWithoutSurfaceIsEmpty) {
