@@ -47,16 +47,41 @@ void Qef::add(const Vec3& point, const Vec3& n) {
   b_ += n * glm::dot(n, point);
 }
 
+namespace {
+
+constexpr double kTruncation = 0.05;   // keeps edges sharper than about 25 degrees, drops the curvature of round twigs
+
+/// The largest eigenvalue and its vector where all others are dropped, which on smooth surfaces they are: each round of the power
+/// method then leaves at most a twentieth of the error. False elsewhere.
+bool single_direction(const Mat3& a, double& value, Vec3& vector) {
+  const int largest = a[0][0] >= a[1][1] && a[0][0] >= a[2][2] ? 0 : a[1][1] >= a[2][2] ? 1 : 2;
+  const double trace = a[0][0] + a[1][1] + a[2][2];
+  Vec3 v = a[largest];
+  for (int round = 0; round < 12; ++round) {
+    const double length = glm::length(v);
+    if (!(length > 0)) return false;
+    v = a * (v / length);
+  }
+  value = glm::length(v);
+  vector = v / value;
+  return trace - value <= kTruncation * value;
+}
+
+}  // namespace
+
 Qef::Solution Qef::solve(const Vec3& near) const {
-  constexpr double kTruncation = 0.05;   // keeps edges sharper than about 25 degrees, drops the curvature of round twigs
   const Mat3 a(xx_, xy_, xz_, xy_, yy_, yz_, xz_, yz_, zz_);
   Vec3 values;
   Mat3 vectors;
+  const Vec3 residual = b_ - a * near;
+  double value = 0;
+  if (Vec3 direction; single_direction(a, value, direction)) {
+    return {near + direction * (glm::dot(direction, residual) / value), 1};
+  }
   symmetric_eigen(a, values, vectors);
   const double largest = std::max({values.x, values.y, values.z});
   Solution solution{near, 0};
   if (!(largest > 0)) return solution;
-  const Vec3 residual = b_ - a * near;
   for (int i = 0; i < 3; ++i) {
     if (values[i] <= kTruncation * largest) continue;
     solution.point += vectors[i] * (glm::dot(vectors[i], residual) / values[i]);

@@ -36,7 +36,7 @@ Cellular cellular(double x, double y, std::uint32_t period, std::uint64_t seed, 
       const std::uint64_t bits = hash_of(seed, wrapped(cx + dx, period), row_bits(cy + dy));
       const double px = cx + dx + 0.5 + jitter * (unit_of(bits) - 0.5);
       const double py = cy + dy + 0.5 + jitter * (unit_of(mix_bits(bits + 1)) - 0.5);
-      const double d = std::hypot(x - px, y - py);
+      const double d = std::sqrt((x - px) * (x - px) + (y - py) * (y - py));
       if (d < out.nearest) {
         out.second = out.nearest;
         out.nearest = d;
@@ -93,7 +93,8 @@ double lenticels(double x, double y, std::uint32_t period, std::uint64_t seed, d
       if (unit_of(bits) > share) continue;
       const double size = 0.55 + 0.45 * unit_of(mix_bits(bits + 1));
       const double px = cx + dx + unit_of(mix_bits(bits + 2)), py = cy + dy + unit_of(mix_bits(bits + 3));
-      const double d = std::hypot((x - px) / (half_width * size), (y - py) / (half_height * size));
+      const double along = (x - px) / (half_width * size), up = (y - py) / (half_height * size);
+      const double d = std::sqrt(along * along + up * up);
       mark = std::max(mark, 1 - smooth(0.55, 1.0, d));
     }
   }

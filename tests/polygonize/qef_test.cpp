@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace cambium {
@@ -31,6 +32,44 @@ TEST(Qef, APlaneKeepsTheNearPointsPlaceAlongIt) {
   const auto solution = qef.solve(Vec3(0.3, 0.4, 0));
   EXPECT_EQ(solution.rank, 1);
   EXPECT_NEAR(glm::length(solution.point - Vec3(0.3, 0.4, 0.2)), 0, 1e-12);
+}
+
+// Around the angle at which a second direction begins to count, the quick way and the full one must give the same point.
+TEST(Qef, ARoundTwigIsAPlaneWhoseTiltIsTheLeadingEigenvector) {
+  std::mt19937 random(8);
+  std::normal_distribution<> number;
+  int flat = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 axis = glm::normalize(Vec3(number(random), number(random), number(random)));
+    Mat3 sum(0.0);
+    Vec3 b(0.0);
+    Qef qef;
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 n = glm::normalize(axis + 0.12 * Vec3(number(random), number(random), number(random)));
+      const Vec3 p(0.3 * number(random), 0.3 * number(random), 0.3 * number(random));
+      qef.add(p, n);
+      sum += glm::outerProduct(n, n);
+      b += n * glm::dot(n, p);
+    }
+    Vec3 values;
+    Mat3 vectors;
+    symmetric_eigen(sum, values, vectors);
+    const double largest = std::max({values.x, values.y, values.z});
+    Vec3 expected(0.1, 0.2, 0.3);
+    const Vec3 residual = b - sum * expected;
+    int rank = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (values[k] <= 0.05 * largest) continue;
+      expected += vectors[k] * (glm::dot(vectors[k], residual) / values[k]);
+      ++rank;
+    }
+    const auto solution = qef.solve(Vec3(0.1, 0.2, 0.3));
+    ASSERT_EQ(solution.rank, rank);
+    ASSERT_LT(glm::length(solution.point - expected), 1e-9);
+    flat += rank == 1;
+  }
+  EXPECT_GT(flat, 100);
+  EXPECT_LT(flat, 500);
 }
 
 TEST(Qef, AnEdgeAndACornerAreFoundExactly) {
