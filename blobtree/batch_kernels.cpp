@@ -16,6 +16,14 @@
 #include <algorithm>
 #include <cstring>
 
+// A lambda that is part of the loop it is given to: else what it returns goes through memory.
+#undef CAMBIUM_INLINED
+#if HWY_COMPILER_MSVC
+#define CAMBIUM_INLINED
+#else
+#define CAMBIUM_INLINED HWY_ATTR __attribute__((always_inline))
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace cambium {
 namespace HWY_NAMESPACE {
@@ -46,10 +54,7 @@ template <class N>
 HWY_INLINE N Weights<N>::operator[](std::size_t k) const {
   const LocalLateral<T>& lateral = laterals[k];
   const LaneVector<T> m = broadcast(lateral.direction), q = p - broadcast(lateral.point);
-  const Lanes<T> d = root(dot(q, q));
-  const Lanes<T> per_d = or_zero(d > Lanes<T>(0), Lanes<T>(1) / d);
-  return contact_weight(with_gradient<N>(dot(q, m), m), with_gradient<N>(d, per_d * q), lateral.half_per_softness,
-                        lateral.reach, lateral.per_reach);
+  return contact_weight<N>(q, m, dot(q, m), dot(q, q), lateral.half_per_softness, lateral.reach, lateral.per_reach);
 }
 
 /// One program over one batch. N: Lanes<T> for values, LaneDual<T> for values and gradients.
@@ -242,7 +247,7 @@ class BatchRun {
   void run_step(const Step& step) {
     const std::size_t n = step.count, has_first = step.has_first;
     const bool with_zero = step.with_zero;
-    const double width = step.width, lip = step.lip;
+    const double width = step.width;
     switch (step.kind) {
       case StepKind::kPoint: primitive<PointLanes<T>>(step, program_.points[step.first]); break;
       case StepKind::kSegment: primitive<SegmentLanes<T>>(step, program_.segments[step.first]); break;
@@ -263,15 +268,18 @@ class BatchRun {
         });
         break;
       case StepKind::kRicci: combine(step, [=](const Operands<N>& f) HWY_ATTR { return ricci_of(f, n, width); }); break;
-      case StepKind::kContact:
-        combine(step, [=](const Operands<N>& f) HWY_ATTR { return contact_of(f, n, with_zero, width, lip); });
+      case StepKind::kContact: {
+        const ContactShape<N> shape(width, step.lip);
+        combine(step, [=](const Operands<N>& f) CAMBIUM_INLINED { return contact_of(f, n, with_zero, shape); });
         break;
+      }
       case StepKind::kFork: {
         const LocalLateral<T>* const laterals = program_.laterals.data() + step.first;
         const Points<T> at = points(step.frame);
-        combine(step, [=](const Operands<N>& f) HWY_ATTR {
+        const ContactShape<N> shape(width, step.lip);
+        combine(step, [=](const Operands<N>& f) CAMBIUM_INLINED {
           const Weights<N> weights{laterals, at.get(f.i)};
-          return fork_of(has_first ? f[0] : N(0), f + has_first, weights, n - has_first, with_zero, width, lip);
+          return fork_of(has_first ? f[0] : N(0), f + has_first, weights, n - has_first, with_zero, shape);
         });
         break;
       }

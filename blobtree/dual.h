@@ -44,6 +44,13 @@ inline float value_of(float a) { return a; }
 template <class T> T value_of(const Dual<T>& a) { return a.f; }
 
 template <class N>
+struct ValueOf {
+  using type = typename NumberOf<N>::type;
+};
+template <class N>
+inline constexpr bool kHasGradient = !std::is_floating_point_v<N>;
+
+template <class N>
 N with_gradient(typename NumberOf<N>::type value, const Vec<typename NumberOf<N>::type>& gradient) {
   if constexpr (std::is_floating_point_v<N>) {
     (void)gradient;
@@ -53,12 +60,35 @@ N with_gradient(typename NumberOf<N>::type value, const Vec<typename NumberOf<N>
   }
 }
 
+/// The number of value v with the gradient a grad n, or a grad n + b grad m.
+template <class T>
+  requires std::is_floating_point_v<T>
+T of_slope(T v, T, T) {
+  return v;
+}
+template <class T> Dual<T> of_slope(T v, T a, const Dual<T>& n) { return {v, a * n.g}; }
+template <class T>
+  requires std::is_floating_point_v<T>
+T of_slopes(T v, T, T, T, T) {
+  return v;
+}
+template <class T>
+Dual<T> of_slopes(T v, T a, const Dual<T>& n, T b, const Dual<T>& m) {
+  return {v, a * n.g + b * m.g};
+}
+
 /// c ? a : b, and short cuts, as operator_rules-inl.h asks for them.
 template <class N> N select(bool c, const N& a, const N& b) { return c ? a : b; }
 inline bool all(bool c) { return c; }
 inline bool none(bool c) { return !c; }
 inline bool quickly_all(bool c) { return c; }
 inline bool quickly_none(bool c) { return !c; }
+
+template <class T>
+  requires std::is_floating_point_v<T>
+T root(T a) {
+  return std::sqrt(a);
+}
 
 /// a^e for a >= 0.
 template <class T>

@@ -29,6 +29,7 @@ struct Condition {
   using D = hn::ScalableTag<T>;
   hn::Mask<D> m;
   friend HWY_INLINE Condition operator&(Condition a, Condition b) { return {hn::And(a.m, b.m)}; }
+  friend HWY_INLINE Condition operator!=(Condition a, Condition b) { return {hn::Xor(a.m, b.m)}; }
 };
 template <class T> HWY_INLINE bool all(Condition<T> c) { return hn::AllTrue(hn::ScalableTag<T>(), c.m); }
 template <class T> HWY_INLINE bool none(Condition<T> c) { return hn::AllFalse(hn::ScalableTag<T>(), c.m); }
@@ -125,6 +126,21 @@ template <class T> HWY_INLINE Lanes<T> value_of(const LaneDual<T>& a) { return a
 template <class N> struct NumberOf;
 template <class T> struct NumberOf<Lanes<T>> { using type = T; };
 template <class T> struct NumberOf<LaneDual<T>> { using type = T; };
+
+template <class N> struct ValueOf { using type = Lanes<typename NumberOf<N>::type>; };
+template <class N> inline constexpr bool kHasGradient = false;
+template <class T> inline constexpr bool kHasGradient<LaneDual<T>> = true;
+
+/// The number of value v with the gradient a grad n, or a grad n + b grad m.
+template <class T> HWY_INLINE Lanes<T> of_slope(Lanes<T> v, Lanes<T>, Lanes<T>) { return v; }
+template <class T> HWY_INLINE LaneDual<T> of_slope(Lanes<T> v, Lanes<T> a, const LaneDual<T>& n) {
+  return {v, a * n.x, a * n.y, a * n.z};
+}
+template <class T> HWY_INLINE Lanes<T> of_slopes(Lanes<T> v, Lanes<T>, Lanes<T>, Lanes<T>, Lanes<T>) { return v; }
+template <class T>
+HWY_INLINE LaneDual<T> of_slopes(Lanes<T> v, Lanes<T> a, const LaneDual<T>& n, Lanes<T> b, const LaneDual<T>& m) {
+  return {v, a * n.x + b * m.x, a * n.y + b * m.y, a * n.z + b * m.z};
+}
 
 /// A point, or a vector, per lane.
 template <class T>

@@ -5,7 +5,11 @@
 //   value_of(n)              its value without gradient, which can be compared
 //   select(c, a, b)          c ? a : b for a comparison c; all(c), none(c) allow short cuts that change no bit;
 //   quickly_all(c), quickly_none(c)   likewise, where the short cut saves so little that lanes had better not branch (false)
+//   root(v)                  the square root of a value
 //   power(n, e)              n^e for n >= 0
+//   ValueOf<N>::type         what value_of gives; kHasGradient<N>: whether N has a gradient besides
+//   with_gradient<N>(v, g)   the N of value v and gradient g
+//   of_slope(v, a, n), of_slopes(v, a, n, b, m)   the N of value v and gradient a grad n, or a grad n + b grad m
 //   CAMBIUM_RULE, CAMBIUM_RULE_LAMBDA   what the compiler is to know of a function, and of a lambda
 //   Operands<N>              children by index, and offset by +; Weights<N> likewise for a fork
 // `with_zero` says that a child is left out because it is 0 here; every rule gives the same bits whether a zero child is
@@ -71,67 +75,134 @@ CAMBIUM_RULE N ricci_of(Operands<N> f, std::size_t n, double exponent) {
   return select(positive, power(total, T(1) / e) * unit, N(0));
 }
 
-/// D(f) of contact: interpenetration c - f inside, propagation h(f) within `width` outside (Gascuel 1993; lip is ours).
+/// Width and lip of a contact, made ready before a loop. The push of a child is D(f): interpenetration c - f inside,
+/// propagation h(f) within `width` outside (Gascuel 1993; lip is ours).
 template <class N>
-CAMBIUM_RULE N contact_push(const N& f, double width, double lip) {
+struct ContactShape {
   using T = typename NumberOf<N>::type;
-  const auto inside = value_of(f) >= T(kIso);
-  const N depth = N(T(kIso)) - f;
-  if (quickly_all(inside)) return depth;
-  const auto near = value_of(f) > T(kIso - width);
-  if (quickly_none(near)) return N(0);
-  const N u = depth * T(1 / width);
-  const N v = N(1) - u;
-  const N propagated = (u * v * v * (N(1) + u * T(lip))) * T(width);
-  return select(inside, depth, select(near, propagated, N(0)));
+  using V = typename ValueOf<N>::type;
+  V iso, nearest, per_width, width, lip;
+  CAMBIUM_RULE ContactShape(double w, double a)
+      : iso(T(kIso)), nearest(T(kIso - w)), per_width(T(1 / w)), width(T(w)), lip(T(a)) {}
+};
+
+/// The larger of f1 + D(f2) and f2 + D(f1), for f1 >= f2, and f1 itself where both are inside. Which of the two leads, and
+/// how the other one's push grows with it (only worked out if N has a gradient).
+template <class N>
+struct Meeting {
+  using V = typename ValueOf<N>::type;
+  V f;
+  decltype(V(0) < V(0)) first_leads;
+  V slope;
+};
+template <class N, class V>
+CAMBIUM_RULE Meeting<N> meeting(const V& f1, const V& f2, const ContactShape<N>& c) {
+  const V depth1 = c.iso - f1, depth2 = c.iso - f2;
+  // Beyond the width u = 1, where h is 0. Likewise where both are inside: then the first leads, with nothing added.
+  const V u1 = select(f1 > c.nearest, depth1 * c.per_width, V(1));
+  const V u2 = select((f2 > c.nearest) & (f2 < c.iso), depth2 * c.per_width, V(1));
+  const V v1 = V(1) - u1, v2 = V(1) - u2;
+  const V h1 = (u1 * v1 * v1 * (V(1) + u1 * c.lip)) * c.width, h2 = (u2 * v2 * v2 * (V(1) + u2 * c.lip)) * c.width;
+  const V pushed1 = f1 + h2, pushed2 = f2 + select(f1 >= c.iso, depth1, h1);
+  const auto first_leads = pushed1 >= pushed2;
+  const V f = select(first_leads, pushed1, pushed2);
+  if constexpr (kHasGradient<N>) {
+    const V other = select(first_leads, u2, u1), u = select(other > 0, other, V(0));   // inside D' = h'(c) = -1
+    const V v = V(1) - u, q = V(1) + u * c.lip;
+    return {f, first_leads, v * ((q + q) * (u - v) + v)};
+  } else {
+    return {f, first_leads, f};
+  }
+}
+
+/// The same of a and b in any order, and its derivatives by them.
+template <class N>
+struct OfTwo {
+  using V = typename ValueOf<N>::type;
+  V f, by_a, by_b;
+};
+template <class N, class V>
+CAMBIUM_RULE OfTwo<N> contact_of_two(const V& a, const V& b, const ContactShape<N>& shape) {
+  const auto swapped = b > a;
+  const Meeting<N> met = meeting<N>(select(swapped, b, a), select(swapped, a, b), shape);
+  if constexpr (kHasGradient<N>) {
+    const auto a_leads = met.first_leads != swapped;
+    return {met.f, select(a_leads, V(1), met.slope), select(a_leads, met.slope, V(1))};
+  } else {
+    return {met.f, met.f, met.f};
+  }
 }
 
 template <class N>
-CAMBIUM_RULE N contact_of_two(const N& f1, const N& f2, double width, double lip) {  // f1 >= f2
-  using T = typename NumberOf<N>::type;
-  const auto deep = value_of(f2) >= T(kIso);
-  if (quickly_all(deep)) return f1;
-  const N pushed1 = f1 + contact_push(f2, width, lip);
-  const N pushed2 = f2 + contact_push(f1, width, lip);
-  return select(deep, f1, select(value_of(pushed1) >= value_of(pushed2), pushed1, pushed2));
-}
-
-template <class N>
-CAMBIUM_RULE N contact_of(Operands<N> f, std::size_t n, bool with_zero, double width, double lip) {
-  N first = f[0], second(0);
-  bool two = false;
+CAMBIUM_RULE N contact_of(Operands<N> f, std::size_t n, bool with_zero, const ContactShape<N>& shape) {
+  const N a = f[0];
+  if (n == 1 && !with_zero) return a;
+  if (n == 1) {
+    const OfTwo<N> two = contact_of_two<N>(value_of(a), value_of(N(0)), shape);
+    return of_slope(two.f, two.by_a, a);
+  }
+  const N b = f[1];
+  if (n == 2 && !with_zero) {
+    const OfTwo<N> two = contact_of_two<N>(value_of(a), value_of(b), shape);
+    return of_slopes(two.f, two.by_a, a, two.by_b, b);
+  }
+  const auto swapped = value_of(b) > value_of(a);
+  N first = select(swapped, b, a), second = select(swapped, a, b);
   const auto offer = [&](const N& x) CAMBIUM_RULE_LAMBDA {
     const auto larger = value_of(x) > value_of(first);
-    const N runner_up = two ? select(value_of(x) > value_of(second), x, second) : x;
+    const N runner_up = select(value_of(x) > value_of(second), x, second);
     second = select(larger, first, runner_up);
     first = select(larger, x, first);
-    two = true;
   };
-  for (std::size_t i = 1; i < n; ++i) offer(f[i]);
+  for (std::size_t i = 2; i < n; ++i) offer(f[i]);
   if (with_zero) offer(N(0));
-  return two ? contact_of_two(first, second, width, lip) : first;
+  using V = typename ValueOf<N>::type;
+  const Meeting<N> met = meeting<N>(value_of(first), value_of(second), shape);
+  return of_slopes(met.f, select(met.first_leads, V(1), met.slope), first, select(met.first_leads, met.slope, V(1)), second);
 }
 
-/// S(t) = t^2 (3 - 2t), clamped.
-template <class N>
-CAMBIUM_RULE N smooth_step(const N& t) {
-  const N inner = t * t * (N(3) - t * 2);
-  return select(value_of(t) <= 0, N(0), select(value_of(t) >= 1, N(1), inner));
+/// S(t) = t^2 (3 - 2t), clamped, and S'(t).
+template <class V>
+CAMBIUM_RULE V smooth_step(const V& t) {
+  const V inner = t * t * (V(3) - t * 2);
+  return select(t <= 0, V(0), select(t >= 1, V(1), inner));
+}
+template <class V>
+CAMBIUM_RULE V smooth_step_slope(const V& t) {
+  const V inner = t * (V(6) - t * 6);
+  return select(inner > 0, inner, V(0));
 }
 
-/// Where a lateral is in contact (1) and where it melts into its axis (0): field.md section 4, `fork`. `along` is the
-/// point's distance from the branching point in the lateral's direction, `away` its distance from there.
-template <class N, class T>
-CAMBIUM_RULE N contact_weight(const N& along, const N& away, T half_per_softness, T reach, T per_reach) {
-  const N in_crotch = smooth_step(N(T(0.5)) + along * half_per_softness);
-  const N beyond = smooth_step((away - N(reach)) * per_reach);
-  return N(1) - (N(1) - in_crotch) * (N(1) - beyond);
+/// Where a lateral is in contact (1) and where it melts into its axis (0): field.md section 4, `fork`. `offset` is the
+/// point's from the branching point, `along` its part in the lateral's direction and `square` its length squared.
+template <class N, class V, class Vector, class T>
+CAMBIUM_RULE N contact_weight(const Vector& offset, const Vector& direction, const V& along, const V& square,
+                              T half_per_softness, T reach, T per_reach) {
+  const V in_crotch = V(T(0.5)) + along * half_per_softness, not_in_crotch = V(1) - smooth_step(in_crotch);
+  if (none(square > reach * reach)) {
+    const V weight = V(1) - not_in_crotch;
+    if constexpr (kHasGradient<N>)
+      return N(0) + with_gradient<N>(weight, (smooth_step_slope(in_crotch) * half_per_softness) * direction);   // no -0
+    else
+      return weight;
+  }
+  const V away = root(square), beyond = (away - V(reach)) * per_reach, not_beyond = V(1) - smooth_step(beyond);
+  const V weight = V(1) - not_in_crotch * not_beyond;
+  if constexpr (kHasGradient<N>) {
+    const V by_along = not_beyond * smooth_step_slope(in_crotch) * half_per_softness;
+    const V by_away = not_in_crotch * smooth_step_slope(beyond) * per_reach;   // 0 up to `reach`
+    const V per_away = V(1) / select(away > reach, away, V(reach));
+    return N(0) + with_gradient<N>(weight, by_along * direction + (by_away * per_away) * offset);
+  } else {
+    return weight;
+  }
 }
 
 /// `axis` is 0 where it is not active; weights[k] belongs to f[k].
 template <class N>
 CAMBIUM_RULE N fork_of(const N& axis, Operands<N> f, Weights<N> weights, std::size_t n, bool with_zero,
-                       double width, double lip) {
+                       const ContactShape<N>& shape) {
+  using V = typename ValueOf<N>::type;
   N total(0), weighted(0);
   for (std::size_t k = 0; k < n; ++k) {
     const N x = f[k];
@@ -140,17 +211,27 @@ CAMBIUM_RULE N fork_of(const N& axis, Operands<N> f, Weights<N> weights, std::si
     total = select(positive, total + x, total);
     weighted = select(positive, weighted + x * weights[k], weighted);
   }
-  const auto reached = value_of(total) > 0;
+  const V t = value_of(total);
+  const auto reached = t > 0;
   if (none(reached)) return axis;
-  const N joined = contact_of(f, n, with_zero, width, lip);
-  const auto bare = value_of(axis) == 0;
+  const N joined = contact_of(f, n, with_zero, shape);
+  const V a = value_of(axis), c = value_of(joined);
+  const auto bare = a == 0;
   if (all(bare)) return select(reached, joined, axis);
-  const N contact_share = weighted / total;
-  const auto positive = value_of(axis) > 0;
-  const N solid = select(positive, axis, N(0));
-  const auto larger = value_of(joined) > value_of(solid);
-  const N in_contact = contact_of_two(select(larger, joined, solid), select(larger, solid, joined), width, lip) +
-                       select(positive, N(0), axis);
-  const N mixed = (N(1) - contact_share) * (axis + joined) + contact_share * in_contact;
-  return select(reached, select(bare, joined, mixed), axis);
+  const V share = value_of(weighted) / t;
+  const auto positive = a > 0;
+  const OfTwo<N> touching = contact_of_two<N>(select(positive, a, V(0)), c, shape);
+  const V in_contact = touching.f + select(positive, V(0), a);
+  const V melted = a + c, melts = V(1) - share;
+  const V mixed = melts * melted + share * in_contact;
+  if constexpr (kHasGradient<N>) {
+    const V by_axis = melts + share * select(positive, touching.by_a, V(1)), by_joined = melts + share * touching.by_b;
+    const V by_share = in_contact - melted, by_weighted = by_share / t;
+    const N of_share = n == 1 ? of_slope(V(0), by_share, weights[0])   // its share is its weight
+                              : of_slopes(V(0), by_weighted, weighted, V(0) - share * by_weighted, total);
+    const N blended = of_slopes(mixed, by_axis, axis, by_joined, joined) + of_share;
+    return select(reached, select(bare, joined, blended), axis);
+  } else {
+    return select(reached, select(bare, c, mixed), a);
+  }
 }

@@ -15,6 +15,14 @@ Interval widened(const Interval& a) {
   return {a.lo - slack, a.hi + slack};
 }
 
+/// D(f) of contact: interpenetration c - f inside, propagation h(f) within `width` outside.
+double contact_push(double f, double width, double lip) {
+  if (f >= kIso) return kIso - f;
+  if (f <= kIso - width) return 0;
+  const double u = (kIso - f) / width, v = 1 - u;
+  return u * v * v * (1 + u * lip) * width;
+}
+
 /// Largest D(f) for f in the interval. h rises from u = 0 to one peak and falls to u = 1.
 double largest_push(const Interval& f, double width, double lip) {
   if (f.lo >= kIso) return kIso - f.lo;

@@ -21,14 +21,22 @@ using Weights = const N*;
 #undef CAMBIUM_RULE_LAMBDA
 #undef CAMBIUM_RULE
 
+template <class N>
+N contact_of(const N* f, std::size_t n, bool with_zero, double width, double lip) {
+  return contact_of<N>(f, n, with_zero, ContactShape<N>(width, lip));
+}
+template <class N>
+N fork_of(const N& axis, const N* f, const N* weights, std::size_t n, bool with_zero, double width, double lip) {
+  return fork_of<N>(axis, f, weights, n, with_zero, ContactShape<N>(width, lip));
+}
+
 /// The weight of a lateral at a point relative to its branching point.
 template <class N>
 N lateral_contact_weight(const Lateral& lateral, const Vec<typename NumberOf<N>::type>& from_point) {
   using T = typename NumberOf<N>::type;
   const Vec<T> m(lateral.direction);
-  const Distance<T> away = distance_along<T>(from_point);
-  return contact_weight(with_gradient<N>(glm::dot(from_point, m), m), with_gradient<N>(away.value, away.gradient),
-                        T(0.5 / lateral.softness), T(lateral.reach), T(1 / lateral.reach));
+  return contact_weight<N>(from_point, m, glm::dot(from_point, m), glm::dot(from_point, from_point),
+                           T(0.5 / lateral.softness), T(lateral.reach), T(1 / lateral.reach));
 }
 
 // ---- conservative bounds of the same, over intervals --------------------------------------------------------------
