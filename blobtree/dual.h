@@ -89,6 +89,11 @@ template <class T>
 T root(T a) {
   return std::sqrt(a);
 }
+template <class T>
+  requires std::is_floating_point_v<T>
+T larger(T a, T b) {
+  return a < b ? b : a;
+}
 
 /// a^e for a >= 0.
 template <class T>

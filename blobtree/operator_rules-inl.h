@@ -5,7 +5,7 @@
 //   value_of(n)              its value without gradient, which can be compared
 //   select(c, a, b)          c ? a : b for a comparison c; all(c), none(c) allow short cuts that change no bit;
 //   quickly_all(c), quickly_none(c)   likewise, where the short cut saves so little that lanes had better not branch (false)
-//   root(v)                  the square root of a value
+//   root(v), larger(v, w)    the square root of a value, the larger of two
 //   power(n, e)              n^e for n >= 0
 //   ValueOf<N>::type         what value_of gives; kHasGradient<N>: whether N has a gradient besides
 //   with_gradient<N>(v, g)   the N of value v and gradient g
@@ -107,7 +107,7 @@ CAMBIUM_RULE Meeting<N> meeting(const V& f1, const V& f2, const ContactShape<N>&
   const auto first_leads = pushed1 >= pushed2;
   const V f = select(first_leads, pushed1, pushed2);
   if constexpr (kHasGradient<N>) {
-    const V other = select(first_leads, u2, u1), u = select(other > 0, other, V(0));   // inside D' = h'(c) = -1
+    const V other = select(first_leads, u2, u1), u = larger(other, V(0));   // inside D' = h'(c) = -1
     const V v = V(1) - u, q = V(1) + u * c.lip;
     return {f, first_leads, v * ((q + q) * (u - v) + v)};
   } else {
@@ -149,10 +149,10 @@ CAMBIUM_RULE N contact_of(Operands<N> f, std::size_t n, bool with_zero, const Co
   const auto swapped = value_of(b) > value_of(a);
   N first = select(swapped, b, a), second = select(swapped, a, b);
   const auto offer = [&](const N& x) CAMBIUM_RULE_LAMBDA {
-    const auto larger = value_of(x) > value_of(first);
+    const auto leads = value_of(x) > value_of(first);
     const N runner_up = select(value_of(x) > value_of(second), x, second);
-    second = select(larger, first, runner_up);
-    first = select(larger, x, first);
+    second = select(leads, first, runner_up);
+    first = select(leads, x, first);
   };
   for (std::size_t i = 2; i < n; ++i) offer(f[i]);
   if (with_zero) offer(N(0));
@@ -170,7 +170,7 @@ CAMBIUM_RULE V smooth_step(const V& t) {
 template <class V>
 CAMBIUM_RULE V smooth_step_slope(const V& t) {
   const V inner = t * (V(6) - t * 6);
-  return select(inner > 0, inner, V(0));
+  return larger(inner, V(0));
 }
 
 /// Where a lateral is in contact (1) and where it melts into its axis (0): field.md section 4, `fork`. `offset` is the
@@ -198,11 +198,39 @@ CAMBIUM_RULE N contact_weight(const Vector& offset, const Vector& direction, con
   }
 }
 
+/// Axis and laterals, the latter joined in a contact, of which `share` counts and the rest melts into the axis.
+template <class N>
+CAMBIUM_RULE N forked(const N& axis, const N& joined, const N& share, const ContactShape<N>& shape) {
+  using V = typename ValueOf<N>::type;
+  const V a = value_of(axis), c = value_of(joined), s = value_of(share);
+  const auto bare = a == 0, positive = a > 0;
+  const OfTwo<N> touching = contact_of_two<N>(select(positive, a, V(0)), c, shape);
+  const V in_contact = touching.f + select(positive, V(0), a);
+  const V melted = a + c, melts = V(1) - s;
+  const V f = melts * melted + s * in_contact;
+  if constexpr (kHasGradient<N>) {
+    const V by_axis = melts + s * select(positive, touching.by_a, V(1)), by_joined = melts + s * touching.by_b;
+    return select(bare, joined, of_slopes(f, by_axis, axis, by_joined, joined) + of_slope(V(0), in_contact - melted, share));
+  } else {
+    return select(bare, joined, f);
+  }
+}
+
 /// `axis` is 0 where it is not active; weights[k] belongs to f[k].
 template <class N>
 CAMBIUM_RULE N fork_of(const N& axis, Operands<N> f, Weights<N> weights, std::size_t n, bool with_zero,
                        const ContactShape<N>& shape) {
   using V = typename ValueOf<N>::type;
+  if (n == 1) {
+    const N x = f[0];
+    const auto reached = value_of(x) > 0;
+    if (none(reached)) return axis;
+    const N joined = contact_of(f, 1, with_zero, shape);
+    if (all(value_of(axis) == 0)) return select(reached, joined, axis);
+    const N weight = weights[0];
+    const N share = of_slope(value_of(x) * value_of(weight) / value_of(x), V(1), weight);   // divided: so are several
+    return select(reached, forked(axis, joined, share, shape), axis);
+  }
   N total(0), weighted(0);
   for (std::size_t k = 0; k < n; ++k) {
     const N x = f[k];
@@ -211,27 +239,9 @@ CAMBIUM_RULE N fork_of(const N& axis, Operands<N> f, Weights<N> weights, std::si
     total = select(positive, total + x, total);
     weighted = select(positive, weighted + x * weights[k], weighted);
   }
-  const V t = value_of(total);
-  const auto reached = t > 0;
+  const auto reached = value_of(total) > 0;
   if (none(reached)) return axis;
   const N joined = contact_of(f, n, with_zero, shape);
-  const V a = value_of(axis), c = value_of(joined);
-  const auto bare = a == 0;
-  if (all(bare)) return select(reached, joined, axis);
-  const V share = value_of(weighted) / t;
-  const auto positive = a > 0;
-  const OfTwo<N> touching = contact_of_two<N>(select(positive, a, V(0)), c, shape);
-  const V in_contact = touching.f + select(positive, V(0), a);
-  const V melted = a + c, melts = V(1) - share;
-  const V mixed = melts * melted + share * in_contact;
-  if constexpr (kHasGradient<N>) {
-    const V by_axis = melts + share * select(positive, touching.by_a, V(1)), by_joined = melts + share * touching.by_b;
-    const V by_share = in_contact - melted, by_weighted = by_share / t;
-    const N of_share = n == 1 ? of_slope(V(0), by_share, weights[0])   // its share is its weight
-                              : of_slopes(V(0), by_weighted, weighted, V(0) - share * by_weighted, total);
-    const N blended = of_slopes(mixed, by_axis, axis, by_joined, joined) + of_share;
-    return select(reached, select(bare, joined, blended), axis);
-  } else {
-    return select(reached, select(bare, c, mixed), a);
-  }
+  if (all(value_of(axis) == 0)) return select(reached, joined, axis);
+  return select(reached, forked(axis, joined, weighted / total, shape), axis);
 }
