@@ -43,8 +43,11 @@ class CellSearch {
     std::vector<std::uint32_t> all(tree_.atom_count());
     std::iota(all.begin(), all.end(), 0u);
     ActiveAtoms active;
-    find_active(tree_, all, grid_.box({0, 0, 0}, grid_.levels), active);
-    all = {};
+    if (all.size() > kAtomsWorthSharing) {
+      active.atoms = std::move(all);   // the first cut finds those that matter, on all threads
+    } else {
+      find_active(tree_, all, grid_.box({0, 0, 0}, grid_.levels), active);
+    }
     shared_region({0, 0, 0}, grid_.levels, std::move(active), 1.0);
   }
 
@@ -109,6 +112,7 @@ class CellSearch {
     if (levels_below == 0 || (active.size() <= kAtomsWorthSharing && levels_below <= rule_.task_height)) {
       const std::unique_ptr<CellRun> run = make_run_();
       region(scratches_.local(), *run, place, level, active, -1);
+      run->finish();
       return tell(share);
     }
     const Box cube = grid_.box(place, level);

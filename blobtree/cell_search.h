@@ -41,11 +41,12 @@ struct FoundCell {
   std::uint64_t tape_serial = 0;
 };
 
-/// Takes the cells of one subtree, in Morton order, by one thread. Destroyed after the last.
+/// Takes the cells of one subtree, in Morton order, by one thread.
 class CellRun {
  public:
   virtual ~CellRun() = default;
   virtual void found(Evaluator& evaluator, const FoundCell& cell) = 0;
+  virtual void finish() {}         ///< after the last, unless one of them threw
 };
 
 /// Makes the runs; called from many threads. Where subtrees are cut does not depend on the threads.

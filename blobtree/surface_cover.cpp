@@ -93,17 +93,6 @@ class CoverRun : public CellRun {
     std::atomic<bool> too_many{false};
   };
   explicit CoverRun(Shared& shared) : shared_(shared) {}
-  CoverRun(const CoverRun&) = delete;
-  CoverRun& operator=(const CoverRun&) = delete;
-  ~CoverRun() override {
-    if (result_.cells.empty()) return;
-    result_.tapes->finish();
-    const std::size_t count = result_.cells.size();
-    if ((shared_.cells += count) > shared_.max_cells) shared_.too_many = true;
-    const std::lock_guard lock(shared_.mutex);
-    shared_.results.push_back(std::move(result_));
-  }
-
   void found(Evaluator&, const FoundCell& cell) override {
     Known& known = known_[static_cast<std::size_t>(cell.tape_level)];
     if (known.serial != cell.tape_serial) {
@@ -112,6 +101,14 @@ class CoverRun : public CellRun {
     }
     if (result_.cells.empty()) result_.key = morton_key(cell.place);
     result_.cells.push_back({known.tape, cell.place, static_cast<std::uint8_t>(cell.level), part_of(cell.box, known.support)});
+  }
+
+  void finish() override {
+    if (result_.cells.empty()) return;
+    result_.tapes->finish();
+    if ((shared_.cells += result_.cells.size()) > shared_.max_cells) shared_.too_many = true;
+    const std::lock_guard lock(shared_.mutex);
+    shared_.results.push_back(std::move(result_));
   }
 
  private:
