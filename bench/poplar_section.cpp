@@ -106,7 +106,7 @@ void poplar_section(Report& report, const Pace& pace) {
 
   report.heading("Poplar, cells one branch diameter across on its surface");
   report.add({.what = "primitives active in a cell", .figure = cells.mean_active, .unit = "on average"});
-  report.add({.what = "Evaluator::value in a pruned cell", .figure = per_cell("value"), .unit = "ns/point"});
+  report.add({.what = "Evaluator::value, another cell every time", .figure = per_cell("value"), .unit = "ns/point"});
   report.add({.what = "Evaluator::sample",
               .figure = per_cell("sample"),
               .unit = "ns/point",
