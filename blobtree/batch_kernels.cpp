@@ -10,6 +10,7 @@
 // After foreach_target.h:
 #include "blobtree/lane_power-inl.h"
 #include "blobtree/lane_shapes-inl.h"
+#include "blobtree/lane_warps-inl.h"
 
 #include "blobtree/batch_kernels.h"
 
@@ -55,6 +56,22 @@ HWY_INLINE N Weights<N>::operator[](std::size_t k) const {
   const LocalLateral<T>& lateral = laterals[k];
   const LaneVector<T> m = broadcast(lateral.direction), q = p - broadcast(lateral.point);
   return contact_weight<N>(q, m, dot(q, m), dot(q, q), lateral.half_per_softness, lateral.reach, lateral.per_reach);
+}
+
+/// Vectors of double, whatever they are in memory.
+template <class T> HWY_INLINE DoubleVector load_doubles(const T* x, const T* y, const T* z) {
+  if constexpr (std::is_same_v<T, double>) {
+    return {load(x), load(y), load(z)};
+  } else {
+    return {load_floats<double>(x), load_floats<double>(y), load_floats<double>(z)};
+  }
+}
+template <class T> HWY_INLINE void store_doubles(const DoubleVector& v, T* x, T* y, T* z) {
+  if constexpr (std::is_same_v<T, double>) {
+    store(v.x, x), store(v.y, y), store(v.z, z);
+  } else {
+    store_floats(v.x, x), store_floats(v.y, y), store_floats(v.z, z);
+  }
 }
 
 /// One program over one batch. N: Lanes<T> for values, LaneDual<T> for values and gradients.
@@ -113,8 +130,14 @@ class BatchRun {
   T* axis(std::size_t frame, int k) const { return points_ + (3 * frame + static_cast<std::size_t>(k)) * stride_; }
   Points<T> points(std::size_t frame) const { return {axis(frame, 0), axis(frame, 1), axis(frame, 2)}; }
   HWY_INLINE Slot<N> slot(std::size_t k) const { return {slots_ + k * Slot<N>::kArrays * stride_, stride_}; }
-  Vec3 absolute(std::size_t frame, std::size_t i) const {
-    return program_.frames[frame].origin + Vec3(axis(frame, 0)[i], axis(frame, 1)[i], axis(frame, 2)[i]);
+
+  /// use(the warp of a frame in lanes), unless it is a rigid one.
+  template <class Use>
+  HWY_INLINE void with_warp(const LocalFrame<T>& frame, const Use& use) const {
+    const Vec3& outside = program_.frames[frame.outside].origin;
+    if (const auto* const bend = std::get_if<BendWarp>(&frame.warp)) use(BendLanes(*bend, outside, frame.origin));
+    if (const auto* const twist = std::get_if<TwistWarp>(&frame.warp)) use(TwistLanes(*twist, outside, frame.origin));
+    if (const auto* const taper = std::get_if<TaperWarp>(&frame.warp)) use(TaperLanes(*taper, outside, frame.origin));
   }
 
   void enter_frame(std::size_t k) {
@@ -131,10 +154,14 @@ class BatchRun {
       }
       return;
     }
-    for (std::size_t i = 0; i < n_; ++i) {
-      const Vec3 q = unwarp(frame.warp, absolute(frame.outside, i)) - frame.origin;
-      for (int a = 0; a < 3; ++a) axis(k, a)[i] = static_cast<T>(q[a]);
-    }
+    const Points<T> outside = points(frame.outside), inside = points(k);
+    const std::size_t n = n_;
+    with_warp(frame, [=](const auto& warp) CAMBIUM_INLINED {
+      for (std::size_t i = 0; i < n; i += lane_count<double>()) {
+        const DoubleVector q = warp.unwarp(load_doubles(outside.x + i, outside.y + i, outside.z + i));
+        store_doubles(q, inside.x + i, inside.y + i, inside.z + i);
+      }
+    });
   }
 
   /// Gradients inside a warp, seen from outside.
@@ -151,11 +178,16 @@ class BatchRun {
         }
         return;
       }
-      for (std::size_t i = 0; i < n_; ++i) {
-        T *const gx = to.at + stride_ + i, *const gy = gx + stride_, *const gz = gy + stride_;
-        const Vec3 g = pull_back(frame.warp, absolute(frame.outside, i), Vec3(*gx, *gy, *gz));
-        *gx = static_cast<T>(g.x), *gy = static_cast<T>(g.y), *gz = static_cast<T>(g.z);
-      }
+      const Points<T> outside = points(frame.outside);
+      T *const gx = to.at + stride_, *const gy = gx + stride_, *const gz = gy + stride_;
+      const std::size_t n = n_;
+      with_warp(frame, [=](const auto& warp) CAMBIUM_INLINED {
+        for (std::size_t i = 0; i < n; i += lane_count<double>()) {
+          const DoubleVector p = load_doubles(outside.x + i, outside.y + i, outside.z + i);
+          const DoubleVector g = load_doubles(gx + i, gy + i, gz + i);
+          store_doubles(warp.pull_back(p, g), gx + i, gy + i, gz + i);
+        }
+      });
     }
   }
 
