@@ -1,5 +1,5 @@
 // Batches of points given as floats relative to the origin of the pruned box. Where floats could not keep 1e-4 (a box much
-// larger than the thinnest primitive in it, or a warp that is not rigid) the same batch runs in double.
+// larger than the thinnest primitive in it, or one that a warp tears or stretches as far) the same batch runs in double.
 #include "blobtree/batch.h"
 
 #include "blobtree/evaluator_scratch.h"

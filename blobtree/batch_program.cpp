@@ -166,20 +166,17 @@ class ShapePlacer {
   double per_support_ = 0, strength_ = 1;   // of the primitive that is being placed
 };
 
-/// False if points in a warp's space are not linear in those outside.
 template <class T>
-bool add_frame(const Warp& warp, std::uint32_t outside, BatchProgram<T>& out) {
+void add_frame(const Warp& warp, std::uint32_t outside, BatchProgram<T>& out) {
   LocalFrame<T>& frame = out.frames.emplace_back();
   frame.outside = outside;
   frame.origin = unwarp(warp, out.frames[outside].origin);
   const RigidWarp* const rigid = std::get_if<RigidWarp>(&warp);
   frame.linear = rigid != nullptr;
-  if (!rigid) {
+  if (rigid)
+    for (int i = 0; i < 3; ++i) assign(frame.matrix[i], rigid->axes[i] / rigid->scale);   // rows of the transposed
+  else
     frame.warp = warp;
-    return false;
-  }
-  for (int i = 0; i < 3; ++i) assign(frame.matrix[i], rigid->axes[i] / rigid->scale);   // rows of the transposed
-  return true;
 }
 
 bool is_leaf(Op op) { return op == Op::kPrimitive || op == Op::kHalfSpace || op == Op::kChain; }
@@ -224,16 +221,14 @@ bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& or
   out.frames.resize(1);
   out.frames[0].origin = origin;
   out.frames[0].linear = true;
-  for (std::size_t k = 1; k < view.frame_count(); ++k)
-    if (!add_frame(view.warp_of(k), view.outside_of(k), out) && kFloat) return false;   // sizes change from place to place
-  const auto reach_in = [&](std::uint32_t frame) {
-    double reach = half;
-    for (; frame > 0; frame = out.frames[frame].outside) {
-      const auto& row = out.frames[frame].matrix[0];
-      reach *= std::hypot(row[0], row[1], row[2]);
-    }
-    return reach;
-  };
+  reaches_.assign(1, half);
+  for (std::size_t k = 1; k < view.frame_count(); ++k) {
+    const std::uint32_t outside = view.outside_of(k);
+    add_frame(view.warp_of(k), outside, out);
+    const UnwarpedBall reached = unwarp(view.warp_of(k), Ball{out.frames[outside].origin, reaches_[outside]});
+    if (kFloat && !reached.certain) return false;
+    reaches_.push_back(reached.ball.radius);
+  }
 
   find_consumers(view);
   ShapePlacer<T> placer(out);
@@ -243,7 +238,7 @@ bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& or
     const Instruction& in = view.tape[at];
     const Op op = in.op;
     const CompiledNode& node = view.tree.nodes[in.node];
-    if (in.frame != frame) placer.enter(out.frames[in.frame].origin, reach_in(in.frame));
+    if (in.frame != frame) placer.enter(out.frames[in.frame].origin, reaches_[in.frame]);
     frame = in.frame;
     const Consumer& consumer = consumers_[at];
     const bool adds = consumer.child > 0 && view.tape[consumer.instruction].op == Op::kSum;

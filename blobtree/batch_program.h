@@ -58,8 +58,8 @@ template <class T>
 struct LocalLateral {
   T point[3], direction[3], half_per_softness, reach, per_reach;
 };
-/// The space inside a warp. A linear one is relative to its own origin: q = matrix * p. Others map points one by one in
-/// double.
+/// The space inside a warp, relative to its own origin. In a linear one q = matrix * p; others map points in double, into
+/// floats too.
 template <class T>
 struct LocalFrame {
   std::uint32_t outside = 0;
@@ -119,6 +119,7 @@ class BatchCompiler {
 
   std::vector<Consumer> consumers_;
   std::vector<std::uint32_t> stack_;
+  std::vector<double> reaches_;           ///< per frame: how far from its origin points may be
 };
 
 }  // namespace cambium
