@@ -82,13 +82,15 @@ class BatchRun {
 
   BatchRun(const BatchProgram<T>& program, ChunkMemory& memory, const BatchArrays& batch)
       : program_(program), batch_(batch) {
-    const std::size_t arrays = 3 * program.frames.size() + Slot<N>::kArrays * program.slot_count;
+    const bool bent = std::ranges::any_of(program.frames, [](const LocalFrame<T>& frame) { return !frame.linear; });
+    frame_arrays_ = kGradient && bent ? 6 : 3;
+    const std::size_t arrays = frame_arrays_ * program.frames.size() + Slot<N>::kArrays * program.slot_count;
     const std::size_t fitting = kCacheBytes / (sizeof(T) * arrays) / kPadding * kPadding;
     capacity_ = std::clamp(fitting, kPadding, kLargestChunk);
     capacity_ = std::min(capacity_, (batch.n + kPadding - 1) / kPadding * kPadding);
     stride_ = capacity_ + capacity_ / 4 / kPadding * kPadding;
     points_ = memory.at_least<T>(arrays * stride_);
-    slots_ = points_ + 3 * program.frames.size() * stride_;
+    slots_ = points_ + frame_arrays_ * program.frames.size() * stride_;
   }
 
   void run() {
@@ -127,18 +129,11 @@ class BatchRun {
       for (int k = 0; k < kArrays; ++k) to[k][i] = static_cast<float>(slots_[k * stride_ + i]);
   }
 
-  T* axis(std::size_t frame, int k) const { return points_ + (3 * frame + static_cast<std::size_t>(k)) * stride_; }
+  T* axis(std::size_t frame, int k) const { return points_ + (frame_arrays_ * frame + static_cast<std::size_t>(k)) * stride_; }
   Points<T> points(std::size_t frame) const { return {axis(frame, 0), axis(frame, 1), axis(frame, 2)}; }
+  /// Three numbers of the Jacobian of the frame's warp (lane_warps-inl.h); only for gradients.
+  Points<T> slopes_of(std::size_t frame) const { return {axis(frame, 3), axis(frame, 4), axis(frame, 5)}; }
   HWY_INLINE Slot<N> slot(std::size_t k) const { return {slots_ + k * Slot<N>::kArrays * stride_, stride_}; }
-
-  /// use(the warp of a frame in lanes), unless it is a rigid one.
-  template <class Use>
-  HWY_INLINE void with_warp(const LocalFrame<T>& frame, const Use& use) const {
-    const Vec3& outside = program_.frames[frame.outside].origin;
-    if (const auto* const bend = std::get_if<BendWarp>(&frame.warp)) use(BendLanes(*bend, outside, frame.origin));
-    if (const auto* const twist = std::get_if<TwistWarp>(&frame.warp)) use(TwistLanes(*twist, outside, frame.origin));
-    if (const auto* const taper = std::get_if<TaperWarp>(&frame.warp)) use(TaperLanes(*taper, outside, frame.origin));
-  }
 
   void enter_frame(std::size_t k) {
     const LocalFrame<T>& frame = program_.frames[k];
@@ -154,14 +149,23 @@ class BatchRun {
       }
       return;
     }
-    const Points<T> outside = points(frame.outside), inside = points(k);
+    if (const auto* const bend = std::get_if<BendWarp>(&frame.warp)) unwarp_frame<BendLanes>(*bend, k);
+    if (const auto* const twist = std::get_if<TwistWarp>(&frame.warp)) unwarp_frame<TwistLanes>(*twist, k);
+    if (const auto* const taper = std::get_if<TaperWarp>(&frame.warp)) unwarp_frame<TaperLanes>(*taper, k);
+  }
+
+  template <class WarpLanes, class Warp>
+  HWY_NOINLINE void unwarp_frame(const Warp& warp, std::size_t k) const {
+    const LocalFrame<T>& frame = program_.frames[k];
+    const WarpLanes lanes(warp, program_.frames[frame.outside].origin, frame.origin);
+    const Points<T> outside = points(frame.outside), inside = points(k), slopes = slopes_of(k);
     const std::size_t n = n_;
-    with_warp(frame, [=](const auto& warp) CAMBIUM_INLINED {
-      for (std::size_t i = 0; i < n; i += lane_count<double>()) {
-        const DoubleVector q = warp.unwarp(load_doubles(outside.x + i, outside.y + i, outside.z + i));
-        store_doubles(q, inside.x + i, inside.y + i, inside.z + i);
-      }
-    });
+    for (std::size_t i = 0; i < n; i += lane_count<double>()) {
+      DoubleVector jacobian;
+      const DoubleVector q = lanes.unwarp(load_doubles(outside.x + i, outside.y + i, outside.z + i), jacobian);
+      store_doubles(q, inside.x + i, inside.y + i, inside.z + i);
+      if constexpr (kGradient) store_doubles(jacobian, slopes.x + i, slopes.y + i, slopes.z + i);
+    }
   }
 
   /// Gradients inside a warp, seen from outside.
@@ -178,16 +182,22 @@ class BatchRun {
         }
         return;
       }
-      const Points<T> outside = points(frame.outside);
-      T *const gx = to.at + stride_, *const gy = gx + stride_, *const gz = gy + stride_;
-      const std::size_t n = n_;
-      with_warp(frame, [=](const auto& warp) CAMBIUM_INLINED {
-        for (std::size_t i = 0; i < n; i += lane_count<double>()) {
-          const DoubleVector p = load_doubles(outside.x + i, outside.y + i, outside.z + i);
-          const DoubleVector g = load_doubles(gx + i, gy + i, gz + i);
-          store_doubles(warp.pull_back(p, g), gx + i, gy + i, gz + i);
-        }
-      });
+      if (const auto* const bend = std::get_if<BendWarp>(&frame.warp)) pull_back_frame<BendSlopes<T>>(*bend, step);
+      if (const auto* const twist = std::get_if<TwistWarp>(&frame.warp)) pull_back_frame<TwistSlopes<T>>(*twist, step);
+      if (const auto* const taper = std::get_if<TaperWarp>(&frame.warp)) pull_back_frame<TaperSlopes<T>>(*taper, step);
+    }
+  }
+
+  template <class Slopes, class Warp>
+  HWY_NOINLINE void pull_back_frame(const Warp& warp, const Step& step) const {
+    const LocalFrame<T>& frame = program_.frames[step.frame];
+    const Slopes lanes(warp, program_.frames[frame.outside].origin);
+    const Points<T> outside = points(frame.outside), slopes = slopes_of(step.frame);
+    const Slot<N> to = slot(step.slot);
+    const std::size_t n = n_;
+    for (std::size_t i = 0; i < n; i += lane_count<T>()) {
+      const N in = to.get(i);
+      to.put(i, with_gradient<N>(in.f, lanes.pull_back(outside.get(i), slopes.get(i), LaneVector<T>{in.x, in.y, in.z})));
     }
   }
 
@@ -324,7 +334,7 @@ class BatchRun {
   const BatchArrays& batch_;
   T* points_ = nullptr;
   T* slots_ = nullptr;
-  std::size_t capacity_ = 0, stride_ = 0, n_ = 0;
+  std::size_t frame_arrays_ = 3, capacity_ = 0, stride_ = 0, n_ = 0;
 };
 
 void float_values(const BatchProgram<float>& program, ChunkMemory& memory, const BatchArrays& batch) {

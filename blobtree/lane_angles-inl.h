@@ -9,6 +9,8 @@
 
 #include "blobtree/lanes-inl.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <numbers>
@@ -16,6 +18,45 @@
 HWY_BEFORE_NAMESPACE();
 namespace cambium {
 namespace HWY_NAMESPACE {
+
+/// c[0] + c[1] x + c[2] x^2 ..., even and odd powers by themselves: two short chains of operations, not a long one.
+template <std::size_t kTerms>
+HWY_INLINE Lanes<double> polynomial(const std::array<double, kTerms>& c, Lanes<double> x) {
+  using V = Lanes<double>;
+  constexpr std::size_t kLastEven = (kTerms - 1) / 2 * 2, kLastOdd = kTerms / 2 * 2 - 1;
+  const V x2 = x * x;
+  V even(c[kLastEven]), odd(c[kLastOdd]);
+  for (std::size_t k = kLastEven; k >= 2; k -= 2) even = even * x2 + V(c[k - 2]);
+  for (std::size_t k = kLastOdd; k >= 3; k -= 2) odd = odd * x2 + V(c[k - 2]);
+  return even + odd * x;
+}
+
+/// From the term of a^power on, in powers of a^2: Taylor's series of sine and cosine.
+template <std::size_t kTerms>
+constexpr std::array<double, kTerms> taylor_terms(int power) {
+  std::array<double, kTerms> terms{};
+  double term = power / 2 % 2 == 0 ? 1 : -1;
+  for (int n = 2; n <= power; ++n) term /= n;
+  for (double& t : terms) {
+    t = term;
+    term /= -(power + 1.0) * (power + 2.0);
+    power += 2;
+  }
+  return terms;
+}
+
+/// The same of the arc tangent.
+template <std::size_t kTerms>
+constexpr std::array<double, kTerms> arc_tangent_terms(int power) {
+  std::array<double, kTerms> terms{};
+  double sign = power / 2 % 2 == 0 ? 1 : -1;
+  for (double& t : terms) {
+    t = sign / power;
+    sign = -sign;
+    power += 2;
+  }
+  return terms;
+}
 
 struct SineAndCosine {
   Lanes<double> sine, cosine;
@@ -32,13 +73,10 @@ HWY_INLINE SineAndCosine sine_and_cosine(Lanes<double> a) {
   constexpr double kHigh = 0x1.921FB544p0, kMid = 0x42D18469p-64, kLow = 0x898CC51701B84p-116;
   const V shifted = a * V(2 / std::numbers::pi) + V(kInteger), quarters = shifted - V(kInteger);
   const V r = ((a - quarters * V(kHigh)) - quarters * V(kMid)) - quarters * V(kLow), r2 = r * r;
-  // Taylor's series; for |r| <= pi/4 what is left out is less than 5e-17 and 3e-18.
-  constexpr int kSineTerms = 8, kCosineTerms = 9;
-  V sine(1), cosine(1);
-  for (int k = kSineTerms - 1; k > 1; --k) sine = V(1) - sine * r2 * V(1.0 / (2 * k * (2 * k + 1)));
-  for (int k = kCosineTerms - 1; k > 1; --k) cosine = V(1) - cosine * r2 * V(1.0 / (2 * k * (2 * k - 1)));
-  sine = r - sine * (r2 * r) * V(1.0 / 6);
-  cosine = V(1) - cosine * r2 * V(0.5);
+  // For |r| <= pi/4 what is left out is less than 5e-17 and 3e-18.
+  static constexpr std::array kSineTerms = taylor_terms<7>(3), kCosineTerms = taylor_terms<7>(4);
+  const V sine = r + r2 * r * polynomial(kSineTerms, r2);
+  const V cosine = (V(1) - r2 * V(0.5)) + r2 * r2 * polynomial(kCosineTerms, r2);
   const auto count = hn::BitCast(bits_d, shifted.v), one = hn::Set(bits_d, 1), two = hn::Set(bits_d, 2);
   const Condition<double> odd{hn::RebindMask(d, hn::TestBit(count, one))};
   const auto sine_sign = hn::BitCast(d, hn::ShiftLeft<62>(hn::And(count, two)));
@@ -58,10 +96,8 @@ HWY_INLINE Lanes<double> angle_from_y(Lanes<double> x, Lanes<double> y) {
   const V slope = or_zero(from_first, select(from_second, V(1), V(kTan2)));
   const V divisor = larger(longer + slope * shorter, V(std::numeric_limits<double>::min()));
   const V t = (shorter - slope * longer) / divisor, t2 = t * t;
-  constexpr int kTerms = 11;   // the next one would be less than 2e-17 of the first
-  V series(1.0 / (2 * kTerms - 1));
-  for (int k = kTerms - 2; k > 0; --k) series = V(1.0 / (2 * k + 1)) - series * t2;
-  const V angle = base + (t - t * t2 * series);
+  static constexpr std::array kTerms = arc_tangent_terms<10>(3);   // the next one would be less than 2e-17 of t
+  const V angle = base + (t + t * t2 * polynomial(kTerms, t2));
   const V from_along = select(across > along, V(kPi / 2) - angle, angle);
   const V from_y = select(y < V(0), V(kPi) - from_along, from_along);
   return V(hn::CopySign(from_y.v, x.v));

@@ -1,7 +1,9 @@
-// The warps that are not rigid (warps.h) in vector lanes of double: W^-1 of points, and gradients back. Included by
+// The warps that are not rigid (warps.h) in vector lanes: W^-1 of points, in double, and gradients back. Included by
 // batch_kernels.cpp once for each set of vector instructions. Private to blobtree/.
 //
-// Each is made from the warp and the origins that points outside and inside of it are relative to.
+// unwarp() is made from a warp and the origins that points outside and inside of it are relative to. It also gives three
+// numbers of the Jacobian at the point, which pull_back() of the warp's slopes wants again: nothing that takes long is done
+// twice, and gradients keep their own precision.
 #if defined(CAMBIUM_BLOBTREE_LANE_WARPS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAMBIUM_BLOBTREE_LANE_WARPS_INL_H
 #undef CAMBIUM_BLOBTREE_LANE_WARPS_INL_H
@@ -20,10 +22,15 @@ namespace HWY_NAMESPACE {
 
 using DoubleVector = LaneVector<double>;
 
-HWY_INLINE DoubleVector broadcast(const Vec3& v) { return {Lanes<double>(v.x), Lanes<double>(v.y), Lanes<double>(v.z)}; }
-HWY_INLINE DoubleVector cross(const DoubleVector& a, const DoubleVector& b) {
+template <class T = double> HWY_INLINE LaneVector<T> broadcast(const Vec3& v) {
+  return {Lanes<T>(v.x), Lanes<T>(v.y), Lanes<T>(v.z)};
+}
+template <class T> HWY_INLINE LaneVector<T> cross(const LaneVector<T>& a, const LaneVector<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+
+/// The part of v across an axis.
+inline Vec3 across_of(const Vec3& v, const Vec3& axis) { return v - glm::dot(v, axis) * axis; }
 
 class BendLanes {
  public:
@@ -33,33 +40,37 @@ class BendLanes {
         n_(broadcast(w.n)), rho_(w.rho), half_(w.angle / 2), arc_(w.arc), sine_(std::sin(w.angle / 2)),
         cosine_(std::cos(w.angle / 2)) {}
 
-  HWY_INLINE DoubleVector unwarp(const DoubleVector& p) const {
+  HWY_INLINE DoubleVector unwarp(const DoubleVector& p, DoubleVector& slopes) const {
     const DoubleVector q = p + from_center_;
-    const V x = dot(q, u_), y = dot(q, d_), end_sine = towards(x);
-    const Condition<double> bent = in_arc(x, y);
+    const V x = dot(q, u_), y = dot(q, d_), r = root(x * x + y * y), end_sine = select(x > V(0), sine_, V(0) - sine_);
+    // Whether the angle from the y axis is at most half the bend's: the sine of the rest, half - |angle|, is not negative.
+    const Condition<double> bent = sine_ * y >= cosine_ * V(hn::Abs(x.v));
     const V along = select(bent, rho_ * (angle_from_y(x, y) + half_), or_zero(x > V(0), arc_) + (x * cosine_ - y * end_sine));
-    const V out = select(bent, root(x * x + y * y), x * end_sine + y * cosine_) - rho_;
+    const V out = select(bent, r, x * end_sine + y * cosine_) - rho_;
+    const V per_r = V(1) / larger(r, V(std::numeric_limits<double>::min()));
+    slopes = {select(bent, x * per_r, end_sine), select(bent, y * per_r, cosine_), select(bent, rho_ * per_r, V(1))};
     return start_ + (along * u_ + out * d_ + dot(q, n_) * n_);
   }
 
-  HWY_INLINE DoubleVector pull_back(const DoubleVector& p, const DoubleVector& g) const {
-    const DoubleVector q = p + from_center_;
-    const V x = dot(q, u_), y = dot(q, d_);
-    const Condition<double> bent = in_arc(x, y);
-    const V per_r = V(1) / larger(root(x * x + y * y), V(std::numeric_limits<double>::min()));
-    const V sine = select(bent, x * per_r, towards(x)), cosine = select(bent, y * per_r, cosine_);
-    const V along = dot(g, u_) * select(bent, rho_ * per_r, V(1)), out = dot(g, d_);
+ private:
+  DoubleVector from_center_, start_, u_, d_, n_;
+  V rho_, half_, arc_, sine_, cosine_;
+};
+
+/// Slopes of a bend: sine and cosine of the angle on the arc, and how much longer the child is there.
+template <class T>
+class BendSlopes {
+ public:
+  HWY_INLINE BendSlopes(const BendWarp& w, const Vec3&)
+      : u_(broadcast<T>(w.u)), d_(broadcast<T>(w.d)), n_(broadcast<T>(w.n)) {}
+
+  HWY_INLINE LaneVector<T> pull_back(const LaneVector<T>&, const LaneVector<T>& slopes, const LaneVector<T>& g) const {
+    const Lanes<T> sine = slopes.x, cosine = slopes.y, along = dot(g, u_) * slopes.z, out = dot(g, d_);
     return (along * cosine + out * sine) * u_ + (out * cosine - along * sine) * d_ + dot(g, n_) * n_;
   }
 
  private:
-  /// Whether the angle from the y axis is at most half the bend's: the sine of the rest, half - |angle|, is not negative.
-  HWY_INLINE Condition<double> in_arc(V x, V y) const { return sine_ * y >= cosine_ * V(hn::Abs(x.v)); }
-  /// Sine of the end's angle that is on this side.
-  HWY_INLINE V towards(V x) const { return select(x > V(0), sine_, V(0) - sine_); }
-
-  DoubleVector from_center_, start_, u_, d_, n_;
-  V rho_, half_, arc_, sine_, cosine_;
+  LaneVector<T> u_, d_, n_;
 };
 
 class TwistLanes {
@@ -69,25 +80,37 @@ class TwistLanes {
       : from_point_(broadcast(outside - w.point)), point_(broadcast(w.point - inside)), axis_(broadcast(w.axis)),
         rate_(w.rate) {}
 
-  HWY_INLINE DoubleVector unwarp(const DoubleVector& p) const {
+  HWY_INLINE DoubleVector unwarp(const DoubleVector& p, DoubleVector& slopes) const {
     const DoubleVector q = p + from_point_;
     const V height = dot(q, axis_);
     const SineAndCosine turn = sine_and_cosine(rate_ * height);
     const DoubleVector on_axis = height * axis_, across = q - on_axis;
+    slopes = {turn.sine, turn.cosine, V(0)};
     return point_ + on_axis + (turn.cosine * across - turn.sine * cross(axis_, across));
-  }
-
-  HWY_INLINE DoubleVector pull_back(const DoubleVector& p, const DoubleVector& g) const {
-    const DoubleVector q = p + from_point_;
-    const SineAndCosine turn = sine_and_cosine(rate_ * dot(q, axis_));
-    const V along = dot(g, axis_);
-    const DoubleVector turned = turn.cosine * (g - along * axis_) + turn.sine * cross(axis_, g);
-    return turned + (along - rate_ * dot(turned, cross(axis_, q))) * axis_;
   }
 
  private:
   DoubleVector from_point_, point_, axis_;
   V rate_;
+};
+
+/// Slopes of a twist: sine and cosine of its angle.
+template <class T>
+class TwistSlopes {
+ public:
+  HWY_INLINE TwistSlopes(const TwistWarp& w, const Vec3& outside)
+      : from_axis_(broadcast<T>(across_of(outside - w.point, w.axis))), axis_(broadcast<T>(w.axis)),
+        rate_(w.rate) {}
+
+  HWY_INLINE LaneVector<T> pull_back(const LaneVector<T>& p, const LaneVector<T>& slopes, const LaneVector<T>& g) const {
+    const Lanes<T> sine = slopes.x, cosine = slopes.y, along = dot(g, axis_);
+    const LaneVector<T> turned = cosine * (g - along * axis_) + sine * cross(axis_, g);
+    return turned + (along - rate_ * dot(turned, cross(axis_, p + from_axis_))) * axis_;
+  }
+
+ private:
+  LaneVector<T> from_axis_, axis_;
+  Lanes<T> rate_;
 };
 
 class TaperLanes {
@@ -98,29 +121,37 @@ class TaperLanes {
         from_height_(w.from_height), to_height_(w.to_height), from_scale_(w.from_scale), to_scale_(w.to_scale),
         slope_((w.to_scale - w.from_scale) / (w.to_height - w.from_height)) {}
 
-  HWY_INLINE DoubleVector unwarp(const DoubleVector& p) const {
+  HWY_INLINE DoubleVector unwarp(const DoubleVector& p, DoubleVector& slopes) const {
     const DoubleVector q = p + from_point_;
     const V height = dot(q, axis_);
     const DoubleVector on_axis = height * axis_;
-    return point_ + on_axis + (V(1) / scale_at(height)) * (q - on_axis);
-  }
-
-  HWY_INLINE DoubleVector pull_back(const DoubleVector& p, const DoubleVector& g) const {
-    const DoubleVector q = p + from_point_;
-    const V height = dot(q, axis_), per_scale = V(1) / scale_at(height), along = dot(g, axis_);
-    const V slope = or_zero((height > from_height_) & (height < to_height_), slope_);
-    const DoubleVector shrunk = per_scale * (g - along * axis_);
-    return shrunk + (along - dot(shrunk, q) * slope * per_scale) * axis_;   // shrunk is orthogonal to the axis
+    const Condition<double> above = height > from_height_, below = height < to_height_;
+    const V between = from_scale_ + slope_ * (height - from_height_);
+    const V per_scale = V(1) / select(above, select(below, between, to_scale_), from_scale_);
+    slopes = {per_scale, or_zero(above & below, slope_) * per_scale, V(0)};
+    return point_ + on_axis + per_scale * (q - on_axis);
   }
 
  private:
-  HWY_INLINE V scale_at(V height) const {
-    const V between = from_scale_ + slope_ * (height - from_height_);
-    return select(height <= from_height_, from_scale_, select(height >= to_height_, to_scale_, between));
-  }
-
   DoubleVector from_point_, point_, axis_;
   V from_height_, to_height_, from_scale_, to_scale_, slope_;
+};
+
+/// Slopes of a taper: 1 / scale, and how fast the scale grows, over the scale.
+template <class T>
+class TaperSlopes {
+ public:
+  HWY_INLINE TaperSlopes(const TaperWarp& w, const Vec3& outside)
+      : from_axis_(broadcast<T>(across_of(outside - w.point, w.axis))), axis_(broadcast<T>(w.axis)) {}
+
+  HWY_INLINE LaneVector<T> pull_back(const LaneVector<T>& p, const LaneVector<T>& slopes, const LaneVector<T>& g) const {
+    const Lanes<T> along = dot(g, axis_);
+    const LaneVector<T> shrunk = slopes.x * (g - along * axis_);   // orthogonal to the axis
+    return shrunk + (along - dot(shrunk, p + from_axis_) * slopes.y) * axis_;
+  }
+
+ private:
+  LaneVector<T> from_axis_, axis_;
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
