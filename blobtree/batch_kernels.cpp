@@ -115,9 +115,9 @@ class BatchRun {
     const float* const from[3] = {batch_.x + begin, batch_.y + begin, batch_.z + begin};
     std::size_t i = 0;
     for (; i + lane_count<T>() <= count; i += lane_count<T>())
-      for (int k = 0; k < 3; ++k) store(load_floats<T>(from[k] + i), axis(0, k) + i);
+      for (std::size_t k = 0; k < 3; ++k) store(load_floats<T>(from[k] + i), axis(0, k) + i);
     for (; i < n_; ++i)
-      for (int k = 0; k < 3; ++k) axis(0, k)[i] = static_cast<T>(from[k][std::min(i, count - 1)]);
+      for (std::size_t k = 0; k < 3; ++k) axis(0, k)[i] = static_cast<T>(from[k][std::min(i, count - 1)]);
   }
   void give(std::size_t begin, std::size_t count) const {
     float* const to[4] = {batch_.f + begin, batch_.gx + begin, batch_.gy + begin, batch_.gz + begin};
@@ -129,7 +129,7 @@ class BatchRun {
       for (int k = 0; k < kArrays; ++k) to[k][i] = static_cast<float>(slots_[k * stride_ + i]);
   }
 
-  T* axis(std::size_t frame, int k) const { return points_ + (frame_arrays_ * frame + static_cast<std::size_t>(k)) * stride_; }
+  T* axis(std::size_t frame, std::size_t k) const { return points_ + (frame_arrays_ * frame + k) * stride_; }
   Points<T> points(std::size_t frame) const { return {axis(frame, 0), axis(frame, 1), axis(frame, 2)}; }
   /// Three numbers of the Jacobian of the frame's warp (lane_warps-inl.h); only for gradients.
   Points<T> slopes_of(std::size_t frame) const { return {axis(frame, 3), axis(frame, 4), axis(frame, 5)}; }

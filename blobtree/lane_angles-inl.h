@@ -62,8 +62,7 @@ struct SineAndCosine {
   Lanes<double> sine, cosine;
 };
 
-/// Both within 2.5e-16 for |a| <= 10^6. Beyond, up to 10^15, within 2.5e-16 and as much as half the last bit of `a` turns
-/// them by.
+/// Both within 2.5e-16 for |a| <= 10^6. Beyond, up to 10^15, within 2.5e-16 and what the last bit of `a` turns them by.
 HWY_INLINE SineAndCosine sine_and_cosine(Lanes<double> a) {
   using V = Lanes<double>;
   const hn::ScalableTag<double> d;
@@ -88,8 +87,9 @@ HWY_INLINE SineAndCosine sine_and_cosine(Lanes<double> a) {
 HWY_INLINE Lanes<double> angle_from_y(Lanes<double> x, Lanes<double> y) {
   using V = Lanes<double>;
   constexpr double kPi = std::numbers::pi;
-  constexpr double kTan1 = 0.19891236737965800691, kTan2 = 0.41421356237309504880, kTan3 = 0.66817863791929891999;   // of k pi/16
+  constexpr double kTan1 = 0.19891236737965800691, kTan2 = 0.41421356237309504880, kTan3 = 0.66817863791929891999;
   const V across(hn::Abs(x.v)), along(hn::Abs(y.v)), shorter = smaller(across, along), longer = larger(across, along);
+  // kTan1, 2, 3: of pi/16, pi/8, 3 pi/16.
   // Of (longer, shorter), at most pi/4; measured from 0, pi/8 or pi/4, whichever is nearest: at most pi/16 from there.
   const Condition<double> from_first = shorter > V(kTan1) * longer, from_second = shorter > V(kTan3) * longer;
   const V base = or_zero(from_first, select(from_second, V(kPi / 4), V(kPi / 8)));

@@ -42,10 +42,12 @@ class BendLanes {
 
   HWY_INLINE DoubleVector unwarp(const DoubleVector& p, DoubleVector& slopes) const {
     const DoubleVector q = p + from_center_;
-    const V x = dot(q, u_), y = dot(q, d_), r = root(x * x + y * y), end_sine = select(x > V(0), sine_, V(0) - sine_);
+    const V x = dot(q, u_), y = dot(q, d_), r = root(x * x + y * y);
+    const V end_sine = select(x > V(0), sine_, V(0) - sine_);
     // Whether the angle from the y axis is at most half the bend's: the sine of the rest, half - |angle|, is not negative.
     const Condition<double> bent = sine_ * y >= cosine_ * V(hn::Abs(x.v));
-    const V along = select(bent, rho_ * (angle_from_y(x, y) + half_), or_zero(x > V(0), arc_) + (x * cosine_ - y * end_sine));
+    const V on_arc = rho_ * (angle_from_y(x, y) + half_), beyond = or_zero(x > V(0), arc_) + (x * cosine_ - y * end_sine);
+    const V along = select(bent, on_arc, beyond);
     const V out = select(bent, r, x * end_sine + y * cosine_) - rho_;
     const V per_r = V(1) / larger(r, V(std::numeric_limits<double>::min()));
     slopes = {select(bent, x * per_r, end_sine), select(bent, y * per_r, cosine_), select(bent, rho_ * per_r, V(1))};
