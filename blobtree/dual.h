@@ -81,7 +81,6 @@ Dual<T> of_slopes(T v, T a, const Dual<T>& n, T b, const Dual<T>& m) {
 template <class N> N select(bool c, const N& a, const N& b) { return c ? a : b; }
 inline bool all(bool c) { return c; }
 inline bool none(bool c) { return !c; }
-inline bool quickly_all(bool c) { return c; }
 inline bool quickly_none(bool c) { return !c; }
 
 template <class T>

@@ -33,7 +33,6 @@ struct Condition {
 };
 template <class T> HWY_INLINE bool all(Condition<T> c) { return hn::AllTrue(hn::ScalableTag<T>(), c.m); }
 template <class T> HWY_INLINE bool none(Condition<T> c) { return hn::AllFalse(hn::ScalableTag<T>(), c.m); }
-template <class T> HWY_INLINE bool quickly_all(Condition<T>) { return false; }
 template <class T> HWY_INLINE bool quickly_none(Condition<T>) { return false; }
 
 template <class T>

@@ -4,7 +4,7 @@
 //   NumberOf<N>::type        the number T that N is made of
 //   value_of(n)              its value without gradient, which can be compared
 //   select(c, a, b)          c ? a : b for a comparison c; all(c), none(c) allow short cuts that change no bit;
-//   quickly_all(c), quickly_none(c)   likewise, where the short cut saves so little that lanes had better not branch (false)
+//   quickly_none(c)          likewise, where the short cut saves so little that lanes had better not branch (false)
 //   root(v), larger(v, w)    the square root of a value, the larger of two
 //   power(n, e)              n^e for n >= 0
 //   ValueOf<N>::type         what value_of gives; kHasGradient<N>: whether N has a gradient besides
