@@ -53,7 +53,8 @@ RigidWarp rigid_warp(const Transform& transform) {
 
 Warp bend_warp(const Bend& bend) {
   const double length = glm::length(bend.to - bend.from);
-  if (std::abs(bend.angle) < 1e-9) return RigidWarp{};
+  // Without so small a bend, points move by less than rounding moves them in an arc of so large a radius.
+  if (std::abs(bend.angle) < 3e-8) return RigidWarp{};
   BendWarp w;
   w.a = bend.from;
   w.b = bend.to;

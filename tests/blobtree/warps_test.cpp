@@ -138,9 +138,10 @@ TEST(LaneAngles, AnglesAreWithinTheirError) {
     for (const double y : {-1.0, 0.0, 1.0}) ASSERT_LT(error(x, y), 5e-16) << x << " " << y;
 }
 
-// Points and gradients of a warp in lanes against those of warps.h, `reach` around a place.
+// Points and gradients of a warp in lanes against those of warps.h, `reach` around a place. `shear`: how large the parts of
+// a gradient can be that cancel each other.
 template <class Lanes, template <class> class Slopes, class W>
-void expect_lanes_agree(const W& warp, const Vec3& place, double reach) {
+void expect_lanes_agree(const W& warp, const Vec3& place, double reach, double error = 1e-12, double shear = 0) {
   Draws draws(3);
   const Vec3 outside = place + 0.1 * draws.direction(), inside = unwarp(Warp(warp), outside);
   const Lanes in(warp, outside, inside);
@@ -149,10 +150,11 @@ void expect_lanes_agree(const W& warp, const Vec3& place, double reach) {
     const Vec3 p = place + draws.point({Vec3(-reach), Vec3(reach)}), g = draws.direction();
     lanes::DoubleVector slopes;
     const Vec3 got = inside + first_of(in.unwarp(in_lanes(p - outside), slopes)), expected = unwarp(Warp(warp), p);
-    ASSERT_LT(glm::length(got - expected), 1e-12 * (1 + reach + glm::length(place))) << p.x << " " << p.y << " " << p.z;
+    ASSERT_LT(glm::length(got - expected), error * (1 + reach + glm::length(place))) << p.x << " " << p.y << " " << p.z;
     const Vec3 back = first_of(slopes_of.pull_back(in_lanes(p - outside), slopes, in_lanes(g)));
     const Vec3 gradient = pull_back(Warp(warp), p, g);
-    ASSERT_LT(glm::length(back - gradient), 1e-11 * (1 + glm::length(gradient))) << p.x << " " << p.y << " " << p.z;
+    const double size = 1 + shear + glm::length(gradient);
+    ASSERT_LT(glm::length(back - gradient), 10 * error * size) << p.x << " " << p.y << " " << p.z;
   }
 }
 
@@ -164,11 +166,17 @@ TEST(LaneWarps, AreThoseOfPoints) {
     for (const double reach : {0.1, 3.0})
       expect_lanes_agree<lanes::BendLanes, lanes::BendSlopes>(std::get<BendWarp>(bend), draws.direction(), reach);
   }
+  for (const double angle : {4e-8, 1e-6, 1e-4}) {   // the straighter, the larger the arc's radius
+    SCOPED_TRACE(angle);
+    const Warp bend = bend_warp({{0, 0, 0}, {0, 0.3, 1}, draws.direction(), angle, 0});
+    expect_lanes_agree<lanes::BendLanes, lanes::BendSlopes>(std::get<BendWarp>(bend), {0, 0, 0.5}, 1, 1e-15 / angle);
+  }
   for (const double rate : {0.5, -8.0, 100.0})
     for (const double far : {1.0, 30.0}) {
       SCOPED_TRACE(rate);
       const TwistWarp twist = twist_warp({draws.direction(), 2.0 * draws.direction(), rate, 0});
-      expect_lanes_agree<lanes::TwistLanes, lanes::TwistSlopes>(twist, far * draws.direction(), 1);
+      expect_lanes_agree<lanes::TwistLanes, lanes::TwistSlopes>(twist, far * draws.direction(), 1, 1e-12,
+                                                                 std::abs(rate) * far);
     }
   for (const double to_scale : {0.2, 3.0}) {
     SCOPED_TRACE(to_scale);
