@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <span>
 
 namespace cambium {
 namespace {
@@ -41,9 +42,8 @@ class TreeCompiler {
   const std::uint32_t* children(const CompiledNode& n) const { return tree_.children.data() + n.first_child; }
 
   void compile_node(NodeId id) {
-    const Node authored = authored_.node(id);
-    compile_shape(tree_, node(id), authored);
-    const std::vector<NodeId> ids = children_of(authored);
+    compile_shape(tree_, node(id), authored_.node(id));
+    const std::span<const NodeId> ids = authored_.children(id);
     node(id).first_child = static_cast<std::uint32_t>(tree_.children.size());
     node(id).child_count = static_cast<std::uint32_t>(ids.size());
     for (const NodeId child : ids) {
