@@ -17,24 +17,14 @@ void check_lengths(std::size_t n, std::initializer_list<std::size_t> others) {
 
 }  // namespace
 
-bool BatchScratch::is_prepared(const TapeView& view, const Box& box, const Vec3& origin) const {
-  return tree_address_ == &view.tree && !tree_.expired() && origin_ == origin && box_.lo == box.lo && box_.hi == box.hi &&
-         std::ranges::equal(tape_, view.tape) &&
-         std::ranges::equal(slots_, view.slots) && std::ranges::equal(frames_, view.frames);
-}
-
 void BatchScratch::prepare(const TapeView& view, const Box& box, const Vec3& origin) {
-  if (is_prepared(view, box, origin)) return;
-  tree_address_ = nullptr;   // none, should the following throw
+  if (origin_ == origin && box_.lo == box.lo && box_.hi == box.hi && tape_.is(view.tree, view.tape)) return;
+  tape_.forget();   // should the following throw
   in_float_ = compiler_.compile(view, box, origin, floats_);
   if (!in_float_) compiler_.compile(view, box, origin, doubles_);
-  tape_.assign(view.tape.begin(), view.tape.end());
-  slots_.assign(view.slots.begin(), view.slots.end());
-  frames_.assign(view.frames.begin(), view.frames.end());
   box_ = box;
   origin_ = origin;
-  tree_ = view.tree.weak_from_this();
-  tree_address_ = &view.tree;
+  tape_.remember(view.tree, view.tape);
 }
 
 void BatchScratch::values(const TapeView& view, const Box& box, const Vec3& origin, const BatchArrays& batch) {

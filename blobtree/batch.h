@@ -4,8 +4,6 @@
 
 #include "blobtree/batch_kernels.h"
 
-#include <memory>
-
 namespace cambium {
 
 class BatchScratch {
@@ -16,13 +14,9 @@ class BatchScratch {
 
  private:
   void prepare(const TapeView& view, const Box& box, const Vec3& origin);
-  bool is_prepared(const TapeView& view, const Box& box, const Vec3& origin) const;
 
-  // What the programs were made from. A tree is known by its address while it lives.
-  std::weak_ptr<const CompiledTree> tree_;
-  const CompiledTree* tree_address_ = nullptr;
-  std::vector<Instruction> tape_;
-  std::vector<std::uint32_t> slots_, frames_;
+  // What the programs were made from.
+  RememberedTape tape_;
   Box box_;
   Vec3 origin_{0.0};
 

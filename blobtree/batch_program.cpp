@@ -17,10 +17,6 @@ void assign(T (&to)[3], const Vec3& v) {
   for (int i = 0; i < 3; ++i) to[i] = static_cast<T>(v[i]);
 }
 
-const Lateral& lateral_of(const TapeView& view, const CompiledNode& node, std::uint32_t k) {
-  return view.tree.lateral_of(node, k);
-}
-
 /// Places shapes relative to one origin and notes how hard they are for floats.
 template <class T>
 class ShapePlacer {
@@ -199,10 +195,10 @@ void BatchProgram<T>::clear() {
 }
 
 void BatchCompiler::find_consumers(const TapeView& view) {
-  consumers_.assign(view.tape.size(), {static_cast<std::uint32_t>(view.tape.size()), 0});   // the last value has none
+  consumers_.assign(view.tape.instructions().size(), {static_cast<std::uint32_t>(view.tape.instructions().size()), 0});   // the last value has none
   stack_.clear();
-  for (std::uint32_t at = 0; at < view.tape.size(); ++at) {
-    const Instruction& in = view.tape[at];
+  for (std::uint32_t at = 0; at < view.tape.instructions().size(); ++at) {
+    const Instruction& in = view.tape.instructions()[at];
     if (!is_leaf(in.op)) {
       const std::size_t begin = stack_.size() - in.count;
       for (std::uint32_t child = 0; child < in.count; ++child) consumers_[stack_[begin + child]] = {at, child};
@@ -234,14 +230,14 @@ bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& or
   ShapePlacer<T> placer(out);
   placer.enter(origin, half);
   std::uint32_t frame = 0, top = 0;
-  for (std::uint32_t at = 0; at < view.tape.size(); ++at) {
-    const Instruction& in = view.tape[at];
+  for (std::uint32_t at = 0; at < view.tape.instructions().size(); ++at) {
+    const Instruction& in = view.tape.instructions()[at];
     const Op op = in.op;
     const CompiledNode& node = view.tree.nodes[in.node];
     if (in.frame != frame) placer.enter(out.frames[in.frame].origin, reaches_[in.frame]);
     frame = in.frame;
     const Consumer& consumer = consumers_[at];
-    const bool adds = consumer.child > 0 && view.tape[consumer.instruction].op == Op::kSum;
+    const bool adds = consumer.child > 0 && view.tape.instructions()[consumer.instruction].op == Op::kSum;
     Step step;
     step.frame = in.frame;
     step.count = in.count;
@@ -262,14 +258,14 @@ bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& or
         step.width = view.tree.chain_strength_of(node);
         step.first = static_cast<std::uint32_t>(out.swept.size());
         for (std::uint32_t i = in.first; i < in.first + in.count; ++i)
-          placer.add_segment(view.tree.segment_of(view.slots[i]), step.width);
+          placer.add_segment(view.tree.segment_of(view.tape.slots()[i]), step.width);
         break;
       case Op::kSum: break;
       case Op::kUnion: step.kind = StepKind::kUnion; break;
       case Op::kIntersection: step.kind = StepKind::kIntersection; break;
       case Op::kDifference:
         step.kind = StepKind::kDifference;
-        step.has_first = view.slots[in.first] == 0;
+        step.has_first = view.tape.slots()[in.first] == 0;
         break;
       case Op::kRicci:
         step.kind = StepKind::kRicci;
@@ -281,10 +277,10 @@ bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& or
         step.width = view.tree.blends[node.payload].width;
         step.lip = view.tree.blends[node.payload].lip;
         if (op == Op::kContact) break;
-        step.has_first = view.slots[in.first] == 0;
+        step.has_first = view.tape.slots()[in.first] == 0;
         step.first = static_cast<std::uint32_t>(out.laterals.size());
         for (std::uint32_t i = step.has_first; i < in.count; ++i)
-          placer.add(lateral_of(view, node, view.slots[in.first + i] - 1));
+          placer.add(view.tree.lateral_of(node, view.tape.slots()[in.first + i] - 1));
         break;
       case Op::kScale:
         step.kind = StepKind::kScale;

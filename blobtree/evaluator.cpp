@@ -15,7 +15,7 @@ class BallPolicy {
       : view_(view), balls_(balls), shapes_(shapes) {}
 
   Interval primitive(const Instruction& in) const {
-    return primitive_interval(shapes_.primitive(static_cast<std::size_t>(&in - view_.tape.data())), balls_[in.frame].ball);
+    return primitive_interval(shapes_.primitive(static_cast<std::size_t>(&in - view_.tape.instructions().data())), balls_[in.frame].ball);
   }
   Interval half_space(const Instruction& in) const {
     return half_space_interval(view_.tree.half_spaces[view_.tree.nodes[in.node].payload], balls_[in.frame].ball);
@@ -51,7 +51,7 @@ class RowPolicy {
       : view_(view), shapes_(shapes), row_(row), at_(at), ball_(ball) {}
 
   Interval primitive(const Instruction& in) const {
-    return primitive_interval(shapes_.primitive(static_cast<std::size_t>(&in - view_.tape.data())), ball_);
+    return primitive_interval(shapes_.primitive(static_cast<std::size_t>(&in - view_.tape.instructions().data())), ball_);
   }
   Interval half_space(const Instruction& in) const {
     return half_space_interval(view_.tree.half_spaces[view_.tree.nodes[in.node].payload], ball_);
@@ -130,7 +130,7 @@ Interval Evaluator::interval(const PrunedField& field, const Box& box) {
 }
 
 Interval Evaluator::Scratch::interval(const CompiledTree& tree, const Tape& tape, const Ball& ball) {
-  const TapeView tape_view = view(tree, tape);
+  const TapeView tape_view{tree, tape};
   shapes.gather(tree, tape);
   balls.resize(tape_view.frame_count());
   // Bounds and values round differently: a hair wider.
@@ -141,13 +141,13 @@ Interval Evaluator::Scratch::interval(const CompiledTree& tree, const Tape& tape
 }
 
 int Evaluator::outside_along(const PrunedField& field, const Vec3& from, const Vec3& to) {
-  constexpr int kStretches = kBalls;
+  static_assert(kStretches == kBalls);
   if (field.empty()) return kStretches;
   const Vec3 step = (to - from) / double(kStretches);
   Ball ball{from + 0.5 * step, 0.5 * glm::length(step)};
   ball.radius += 1e-12 * ball.radius + 1e-15 * (glm::length(from) + glm::length(to));
   const TapeView view = Scratch::view(field);
-  if (!view.frames.empty()) {   // warped balls differ in size
+  if (!view.tape.frames().empty()) {   // warped balls differ in size
     int count = 0;
     for (; count < kStretches && interval(field, ball).hi < kIso; ++count) ball.center += step;
     return count;
@@ -157,8 +157,8 @@ int Evaluator::outside_along(const PrunedField& field, const Vec3& from, const V
   BallCenters centers;
   for (std::size_t k = 0; k < kBalls; ++k)
     for (int a = 0; a < 3; ++a) centers[a][k] = ball.center[a] + static_cast<double>(k) * step[a];
-  s.row.resize(view.slots.size());
-  for (const Instruction& in : view.tape) {
+  s.row.resize(view.tape.slots().size());
+  for (const Instruction& in : view.tape.instructions()) {
     if (in.op != Op::kChain) continue;
     bound_swept_ratios(s.shapes.segments() + in.first, in.count, centers, ball.radius, s.row.data() + in.first);
   }
@@ -179,7 +179,7 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
   const TapeView view = scratch_->place(field, p);
   const CompiledTree& tree = view.tree;
   const PointPolicy<double> policy(view, s);
-  for (const Instruction& in : view.tape) {
+  for (const Instruction& in : view.tape.instructions()) {
     const CompiledNode& node = tree.nodes[in.node];
     const Op op = in.op;
     if (node.subtracted || (op != Op::kPrimitive && op != Op::kChain)) continue;
@@ -208,9 +208,9 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
       const SweptSegment<double>& segment = s.shapes.segments()[winner];
       const double along = closest_parameter(segment, q - segment.a);
       c.radius = segment.radius_at(along);
-      place(scratch_->shapes.coordinates(winner), segment.a, along);
+      place(scratch_->shapes.coordinates(view, winner), segment.a, along);
     } else {
-      const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.data()));
+      const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.instructions().data()));
       const NativeAxis native = native_axis(primitive);
       c.radius = tree.radius_of(in.first);
       place(tree.coordinates_of(in.first), native.origin, glm::dot(q - native.origin, native.axis));

@@ -8,7 +8,6 @@
 #include "blobtree/swept_bounds.h"
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,10 +17,8 @@ namespace cambium {
 class GatheredShapes {
  public:
   void gather(const CompiledTree& tree, const Tape& tape) {
-    if (tree_.get() == &tree && tape_.same_arrays(tape)) return;
-    if (tree_.get() != &tree) tree_ = tree.shared_from_this();   // while it lives, no other tree has its address
-    copy_.resize(tape.array_bytes());
-    tape_ = tape.copied_to(copy_.data());
+    if (gathered_.is(tree, tape)) return;
+    gathered_.forget();   // should the following throw
     segments_.resize(tape.slots().size());
     coordinates_.assign(tape.slots().size(), std::nullopt);
     place_.resize(tape.instructions().size());
@@ -35,21 +32,20 @@ class GatheredShapes {
         primitives_.push_back(tree.primitive_of(tree.nodes[in.node]));
       }
     }
+    gathered_.remember(tree, tape);
   }
   /// `at`: of the instruction in its tape.
   const CompiledPrimitive& primitive(std::size_t at) const { return primitives_[place_[at]]; }
   /// By slot.
   const SweptSegment<double>* segments() const { return segments_.data(); }
-  /// By slot: native coordinates of a chain's segment, worked out when first asked for.
-  const CarriedCoordinates& coordinates(std::size_t slot) {
-    if (!coordinates_[slot]) coordinates_[slot] = tree_->coordinates_of(tape_.slots()[slot]);
+  /// Native coordinates of a chain's segment in a slot of the gathered tape, worked out when first asked for.
+  const CarriedCoordinates& coordinates(const TapeView& view, std::size_t slot) {
+    if (!coordinates_[slot]) coordinates_[slot] = view.tree.coordinates_of(view.tape.slots()[slot]);
     return *coordinates_[slot];
   }
 
  private:
-  std::shared_ptr<const CompiledTree> tree_;
-  std::vector<std::byte> copy_;   // of the tape's arrays: its own may be gone, and others be in their place
-  Tape tape_;
+  RememberedTape gathered_;
   std::vector<std::uint32_t> place_;
   std::vector<SweptSegment<double>> segments_;
   std::vector<std::optional<CarriedCoordinates>> coordinates_;
@@ -67,10 +63,7 @@ struct Evaluator::Scratch {
   TapeScratch<TraitedValue> traits;
   BatchScratch batch;
 
-  static TapeView view(const CompiledTree& tree, const Tape& tape) {
-    return {tree, tape.instructions(), tape.slots(), tape.frames(), tape.stack_size()};
-  }
-  static TapeView view(const PrunedField& field) { return view(*field.tree_, *field.tape_); }
+  static TapeView view(const PrunedField& field) { return {*field.tree_, *field.tape_}; }
 
   Interval interval(const CompiledTree& tree, const Tape& tape, const Ball& ball);
 
@@ -92,7 +85,7 @@ class PointPolicy {
   PointPolicy(const TapeView& view, const Evaluator::Scratch& at) : view_(view), at_(at) {}
 
   N primitive(const Instruction& in) const {
-    const CompiledPrimitive& p = at_.shapes.primitive(static_cast<std::size_t>(&in - view_.tape.data()));
+    const CompiledPrimitive& p = at_.shapes.primitive(static_cast<std::size_t>(&in - view_.tape.instructions().data()));
     const Distance<double> d = std::visit([&](const auto& shape) { return distance(shape, at_.points[in.frame]); }, p.shape);
     return falloff_of<N>(d, p.inverse_support, p.strength);
   }

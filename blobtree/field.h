@@ -121,10 +121,11 @@ class Evaluator {
   /// Conservative over the part of the ball inside field.box().
   Interval interval(const PrunedField& field, const Ball& ball);
   Interval interval(const PrunedField& field, const Box& box);
-  /// How much of a straight way is certainly outside: of eight equal stretches of it, the number of leading ones in which
+  /// How much of a straight way is certainly outside: of kStretches equal stretches of it, the number of leading ones in which
   /// the interval stays below kIso. The way must lie in field.box(). Cost: about that of two intervals, where none is
   /// warped.
   int outside_along(const PrunedField& field, const Vec3& from, const Vec3& to);
+  static constexpr int kStretches = 8;
 
   /// Batches: SoA floats relative to field.origin(), equal lengths. Agree with value()/sample() to 1e-4.
   void values(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,

@@ -26,23 +26,23 @@ struct TapeScratch {
 /// A tape and the tree it was made from.
 struct TapeView {
   const CompiledTree& tree;
-  std::span<const Instruction> tape;
-  std::span<const std::uint32_t> slots;
-  std::span<const std::uint32_t> frames;   ///< per frame after the world: its warp node and the frame outside of it
-  std::uint32_t stack_size;
+  const Tape& tape;
 
-  std::size_t frame_count() const { return 1 + frames.size() / 2; }
-  const Warp& warp_of(std::size_t frame) const { return tree.warps[tree.nodes[frames[2 * (frame - 1)]].payload].warp; }  // frame >= 1
-  std::uint32_t outside_of(std::size_t frame) const { return frames[2 * (frame - 1) + 1]; }
+  std::size_t frame_count() const { return 1 + tape.frames().size() / 2; }
+  const Warp& warp_of(std::size_t frame) const {   // frame >= 1
+    return tree.warps[tree.nodes[tape.frames()[2 * (frame - 1)]].payload].warp;
+  }
+  std::uint32_t outside_of(std::size_t frame) const { return tape.frames()[2 * (frame - 1) + 1]; }
 };
 
 template <class Value, class Policy>
 Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch) {
-  if (view.tape.empty()) return Value{};
-  if (scratch.stack.size() < view.stack_size) scratch.stack.resize(view.stack_size);
+  if (view.tape.instructions().empty()) return Value{};
+  if (scratch.stack.size() < view.tape.stack_size()) scratch.stack.resize(view.tape.stack_size());
   Value* const stack = scratch.stack.data();
+  const std::span<const std::uint32_t> slots = view.tape.slots();
   std::size_t top = 0;
-  for (const Instruction& in : view.tape) {
+  for (const Instruction& in : view.tape.instructions()) {
     const Op op = in.op;
     if (op == Op::kPrimitive) {
       stack[top++] = policy.primitive(in);
@@ -69,7 +69,7 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
       case Op::kScale: f[0] = scaled(f[0], view.tree.numbers[node.payload]); break;
       case Op::kWarp: f[0] = policy.warp(in, f[0]); break;
       case Op::kDifference: {
-        const bool has_first = view.slots[in.first] == 0;
+        const bool has_first = slots[in.first] == 0;
         f[0] = difference_of(has_first ? f[0] : Value{}, f + has_first, n - has_first, with_zero);
         break;
       }
@@ -80,10 +80,10 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
       }
       case Op::kFork: {
         const CompiledBlend& blend = view.tree.blends[node.payload];
-        const bool has_axis = view.slots[in.first] == 0;
+        const bool has_axis = slots[in.first] == 0;
         scratch.weights.clear();
         for (std::size_t k = has_axis; k < n; ++k)
-          scratch.weights.push_back(policy.lateral_weight(view.tree.lateral_of(node, view.slots[in.first + k] - 1), in));
+          scratch.weights.push_back(policy.lateral_weight(view.tree.lateral_of(node, slots[in.first + k] - 1), in));
         f[0] = fork_of(has_axis ? f[0] : Value{}, f + has_axis, scratch.weights.data(), n - has_axis, with_zero, blend.width,
                        blend.lip);
         break;

@@ -75,6 +75,31 @@ class OwnedTape {
   Tape tape_;
 };
 
+/// The tape from which something was made. Knows it again even where the first and its tree are gone and others have taken their
+/// place in memory.
+class RememberedTape {
+ public:
+  bool is(const CompiledTree& tree, const Tape& tape) const { return known_ && is_of(tree) && tape_.same_arrays(tape); }
+  void remember(const CompiledTree& tree, const Tape& tape) {
+    arrays_.resize(tape.array_bytes());
+    tape_ = tape.copied_to(arrays_.data());
+    if (!is_of(tree)) tree_ = tree.weak_from_this();   // threads share its counter: left alone where it can be
+    address_ = &tree;
+    known_ = true;
+  }
+  void forget() { known_ = false; }
+
+ private:
+  /// While a tree lives its address tells which it is.
+  bool is_of(const CompiledTree& tree) const { return address_ == &tree && !tree_.expired(); }
+
+  bool known_ = false;
+  std::weak_ptr<const CompiledTree> tree_;
+  const CompiledTree* address_ = nullptr;
+  std::vector<std::byte> arrays_;
+  Tape tape_;
+};
+
 /// Scratch for making tapes of one tree; one per thread.
 class TapeBuilder {
  public:

@@ -32,8 +32,7 @@ class ListedPolicy {
 Interval tape_interval(const CompiledTree& tree, const Tape& tape, const ActiveAtoms& active, const Ball& ball,
                        TapeScratch<Interval>& scratch) {
   ListedPolicy policy(tree, active, ball);
-  const TapeView view{tree, tape.instructions(), tape.slots(), tape.frames(), tape.stack_size()};
-  return a_hair_wider(run_tape(view, policy, scratch));
+  return a_hair_wider(run_tape(TapeView{tree, tape}, policy, scratch));
 }
 
 }  // namespace cambium

@@ -67,12 +67,12 @@ std::optional<double> first_root(Evaluator& evaluator, const PrunedField& field,
     const double span = next - t;
     if (span > shortest) {
       const int outside = evaluator.outside_along(field, ray.at(t), ray.at(next));
-      if (outside == 8) {
+      if (outside == Evaluator::kStretches) {
         t = next;
         stretch = 2 * span;
       } else {
-        t += outside * (span / 8);
-        stretch = std::max(span / 8, 0.999 * shortest);   // below `shortest` at the latest after log8 failures
+        t += outside * (span / Evaluator::kStretches);
+        stretch = std::max(span / Evaluator::kStretches, 0.999 * shortest);   // below `shortest` at the latest after log8 failures
       }
       continue;
     }
