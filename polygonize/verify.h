@@ -1,0 +1,63 @@
+// Measures a mesh against the field it stands for: distances both ways, and whether it is a closed manifold that does not
+// cross itself.
+#pragma once
+
+#include "blobtree/field.h"
+#include "blobtree/run_options.h"
+#include "polygonize/mesh.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cambium {
+
+/// Counted on vertices that have the same number, not the same place. All 0 but the last three for a sound mesh.
+struct MeshTopology {
+  std::size_t boundary_edges = 0;          ///< of one triangle
+  std::size_t nonmanifold_edges = 0;       ///< of three or more, or of two that run it the same way
+  std::size_t nonmanifold_vertices = 0;    ///< whose triangles are more than one fan
+  std::size_t degenerate_triangles = 0;    ///< two equal corners, or no area
+  std::size_t unused_vertices = 0;
+  std::size_t components = 0;
+  std::int64_t euler = 0;                  ///< vertices - edges + triangles
+  double volume = 0;                       ///< cubic metres, signed
+
+  bool closed_manifold() const {
+    return boundary_edges + nonmanifold_edges + nonmanifold_vertices + degenerate_triangles == 0;
+  }
+};
+/// Cost: linear in triangles.
+MeshTopology check_topology(const Mesh& mesh);
+
+/// Pairs of triangles that meet anywhere but in the corners or the edge they share, lower first, ascending. Exact: decided by
+/// robust predicates on the positions as they are. nullopt if cancelled. Cost: near linear in triangles.
+std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections(const Mesh& mesh, const RunOptions& run);
+
+struct DistanceFigures {
+  std::size_t samples = 0;
+  double max = 0, p999 = 0, p99 = 0, mean = 0;   ///< metres
+  Vec3 max_at{0.0};                              ///< the sample that is farthest off
+  double within = 1;                             ///< share of samples no farther than VerifyOptions::tolerance
+  double within_twice = 1;                       ///< than twice that
+};
+
+struct VerifyOptions {
+  double tolerance = 0;                    ///< metres; 0: within and within_twice stay 1
+  std::size_t surface_samples = 1'000'000; ///< on the implicit surface, about
+  bool self_intersections = true;
+};
+
+struct Verification {
+  MeshTopology topology;
+  std::size_t self_intersections = 0;
+  DistanceFigures mesh_to_surface;         ///< from vertices, edge midpoints and centroids to {f = kIso}
+  DistanceFigures surface_to_mesh;         ///< from points of {f = kIso}, even over its area, to the nearest triangle
+};
+
+/// nullopt if cancelled. Cost: a few microseconds a sample.
+std::optional<Verification> verify_mesh(const Mesh& mesh, const Field& field, const VerifyOptions& options, const RunOptions& run);
+
+}  // namespace cambium
