@@ -39,6 +39,19 @@ CellGrid cell_grid(const Box& bounds, double cell) {
   return grid;
 }
 
+std::optional<CellPlace> CellGrid::place_of(const Vec3& p) const {
+  CellPlace place;
+  for (int a = 0; a < 3; ++a) {
+    double low = std::floor(p[a] / cell);
+    if (p[a] < cell * low) --low;        // the quotient was rounded over a corner
+    if (p[a] >= cell * (low + 1)) ++low;
+    const double at = low - static_cast<double>(first[a]);
+    if (!(at >= 0 && at < static_cast<double>(std::uint64_t{1} << levels))) return std::nullopt;
+    place[a] = static_cast<std::uint32_t>(at);
+  }
+  return place;
+}
+
 std::uint64_t morton_key(const CellPlace& place) { return spread(place[0]) | spread(place[1]) << 1 | spread(place[2]) << 2; }
 
 }  // namespace cambium

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace cambium {
 
@@ -28,6 +29,9 @@ struct CellGrid {
     }
     return b;
   }
+
+  /// The level-0 cell that holds p, low faces included and high ones not; none outside the root cube, or if p is not finite.
+  std::optional<CellPlace> place_of(const Vec3& p) const;
 };
 
 /// The smallest grid that covers `bounds` with at least a cell to spare on every side. Errors: InputError if that takes more

@@ -136,9 +136,24 @@ class CoverRun : public CellRun {
   std::array<Known, kMostLevels + 1> known_{};
 };
 
+Box SurfaceCover::cube(std::size_t cell) const { return grid_.box(cells_[cell].place, cells_[cell].level); }
+
+std::optional<std::size_t> SurfaceCover::find(const Vec3& p) const {
+  if (empty()) return std::nullopt;
+  const std::optional<CellPlace> place = grid_.place_of(p);
+  if (!place) return std::nullopt;
+  const std::uint64_t key = morton_key(*place);
+  const auto after = std::upper_bound(cells_.begin(), cells_.end(), key,
+                                      [](std::uint64_t k, const Cell& cell) { return k < morton_key(cell.place); });
+  if (after == cells_.begin()) return std::nullopt;
+  const Cell& last = after[-1];   // cubes of an octree: either it holds p or none does
+  if (key - morton_key(last.place) >= std::uint64_t{1} << 3 * last.level) return std::nullopt;
+  return static_cast<std::size_t>(after - 1 - cells_.begin());
+}
+
 Box SurfaceCover::box(std::size_t cell) const {
   const Cell& c = cells_[cell];
-  const Box cube = grid_.box(c.place, c.level);
+  const Box cube = this->cube(cell);
   const Vec3 unit = cube.size() / 255.0;
   Box part = cube;
   for (int a = 0; a < 3; ++a) {

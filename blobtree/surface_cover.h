@@ -34,6 +34,12 @@ class SurfaceCover {
   /// The part of the cell where its primitives have support. Disjoint (touching) boxes; together they hold the whole surface
   /// f = kIso.
   Box box(std::size_t cell) const;
+  /// The cell's place in the octree, whole: box(cell) is the part of it that counts. Neighbours share corners to the last bit.
+  Box cube(std::size_t cell) const;
+  /// The cell whose cube holds p, low faces included and high ones not; none where no cell of the cover does, and then f is not
+  /// kIso. p may still be outside box(cell): there no primitive of the cell has support, and the whole field is 0.
+  /// Cost: a binary search.
+  std::optional<std::size_t> find(const Vec3& p) const;
   /// Exact inside box(cell). Valid while the cover lives. Cheap; no allocation.
   PrunedField field(std::size_t cell) const;
   /// Of everything it holds, the Field not counted.

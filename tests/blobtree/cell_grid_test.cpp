@@ -33,6 +33,33 @@ TEST(CellGrid, NeighboursShareTheirFaceToTheLastBit) {
   }
 }
 
+TEST(CellGrid, PlaceOfAPointIsTheCellThatHoldsIt) {
+  Draws draws(2);
+  for (int i = 0; i < 200; ++i) {
+    const CellGrid grid = cell_grid(draws.box({Vec3(-40), Vec3(60)}), draws.in(0.01, 3));
+    const Box root = grid.box({0, 0, 0}, grid.levels);
+    const Vec3 inside = draws.point(root);
+    const CellPlace of = grid.place_of(inside).value();
+    const Box cell = grid.box(of, 0);
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_LE(cell.lo[a], inside[a]);
+      EXPECT_LT(inside[a], cell.hi[a]);
+    }
+    EXPECT_EQ(grid.place_of(cell.lo), of);   // low faces belong to the cell, to the last bit
+    EXPECT_EQ(grid.place_of(root.lo), CellPlace{});
+    Vec3 next = cell.lo;
+    next.y = cell.hi.y;
+    if (of[1] + 1 < 1u << grid.levels) EXPECT_EQ(grid.place_of(next), (CellPlace{of[0], of[1] + 1, of[2]}));
+    for (int a = 0; a < 3; ++a) {
+      for (const double beyond : {root.hi[a], std::nextafter(root.lo[a], -kInfinity), kInfinity, -kInfinity, std::nan("")}) {
+        Vec3 p = inside;
+        p[a] = beyond;
+        EXPECT_FALSE(grid.place_of(p)) << beyond;
+      }
+    }
+  }
+}
+
 TEST(CellGrid, RefusesCellsThatCannotBeCounted) {
   const Box bounds{Vec3(0), Vec3(10)}, far{Vec3(1e9), Vec3(1e9 + 1)};
   for (const double cell : {0.0, -1.0, std::nan(""), kInfinity, 1e-6}) EXPECT_THROW(cell_grid(bounds, cell), InputError) << cell;

@@ -273,6 +273,48 @@ TEST(SurfaceCover, FieldOfACellIsTheWholeInside) {
   EXPECT_GT(nonzero, checked / 2);
 }
 
+TEST(SurfaceCover, FindsTheCellWhoseCubeHoldsAPoint) {
+  Evaluator evaluator;
+  std::size_t found = 0, missed = 0, outside_its_box = 0;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    const Field field = strained_field(seed % strains().size(), 700 + seed);
+    if (field.bounds().empty()) continue;
+    const PrunedField whole = field.whole();
+    for (const CoverOptions& options : {few_cells(), constant(longest_edge(field.bounds()) / 30)}) {
+      const SurfaceCover cover = cover_surface(field, options, {}).value();
+      Draws draws(seed);
+      for (std::size_t i = 0; i < cover.size(); ++i) {
+        const Box cube = cover.cube(i), box = cover.box(i);
+        ASSERT_TRUE(cube.contains(box.lo) && cube.contains(box.hi));
+        ASSERT_EQ(cover.find(cube.lo), i);
+        const Vec3 p = draws.point(cube);
+        ASSERT_EQ(cover.find(p), i);
+        if (!box.contains(p)) {
+          ++outside_its_box;
+          ASSERT_EQ(evaluator.value(whole, p), 0);
+        }
+        const auto above = cover.find({cube.lo.x, cube.lo.y, cube.hi.z});   // a neighbour's low face
+        if (above) ASSERT_TRUE(*above != i && cover.cube(*above).contains({cube.lo.x, cube.lo.y, cube.hi.z}));
+        ++found;
+      }
+      for (int k = 0; k < 500; ++k) {
+        const Vec3 p = draws.point(field.bounds());
+        if (const auto cell = cover.find(p)) {
+          ASSERT_TRUE(cover.cube(*cell).contains(p));
+        } else {
+          ++missed;
+          for (std::size_t i = 0; i < cover.size(); ++i) ASSERT_FALSE(cover.box(i).contains(p));
+        }
+      }
+      EXPECT_FALSE(cover.find(field.bounds().hi + 1e3));
+    }
+  }
+  EXPECT_GT(found, 20000u);
+  EXPECT_GT(missed, 1000u);
+  EXPECT_GT(outside_its_box, 100u);
+  EXPECT_FALSE(SurfaceCover().find(Vec3(0)));
+}
+
 // ---- sizes of cells -----------------------------------------------------------------------------------------------
 Field field_of(Node node) {
   BlobTreeBuilder b;
