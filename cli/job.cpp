@@ -108,13 +108,13 @@ std::optional<Skeleton> grow_skeleton(Job& job) {
 std::optional<BuiltTree> build_tree(Job& job) {
   if (job.source_kind == InputKind::kBlobTree) {
     const StageTimer timer(job.figures, "read");
-    return BuiltTree{read_blobtree(job.source), std::nullopt};
+    return BuiltTree{read_blobtree(job.source), std::nullopt, {}};
   }
   const auto skeleton = grow_skeleton(job);
   if (!skeleton || job.run.cancelled()) return std::nullopt;
   const StageTimer timer(job.figures, "surface");
   Surfaced surfaced = surface_with_places(job, *skeleton);
-  return BuiltTree{std::move(surfaced.tree), std::move(surfaced.report)};
+  return BuiltTree{std::move(surfaced.tree), std::move(surfaced.report), std::move(surfaced.branches)};
 }
 
 Field compile_field(Job& job, const BlobTree& tree) {

@@ -42,6 +42,7 @@ std::optional<Skeleton> grow_skeleton(Job& job);
 struct BuiltTree {
   BlobTree tree;
   std::optional<SurfaceReport> report;
+  std::vector<BranchInfo> branches;              ///< by id; empty if it was read from a file
 };
 std::optional<BuiltTree> build_tree(Job& job);
 

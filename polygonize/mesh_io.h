@@ -1,18 +1,51 @@
-// Meshes to files, chosen by extension: .obj .ply .stl .off (OpenMesh), .glb (tinygltf).
+// Meshes to files, chosen by extension: .glb, .obj, .ply, .stl, .off.
 #pragma once
 
 #include "polygonize/mesh.h"
+#include "polygonize/mesh_attributes.h"
 
+#include <array>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace cambium {
 
 enum class UpAxis { kZ, kY };
 
+/// What one order of branches is covered with.
+struct MeshMaterial {
+  std::string name = "bark";
+  std::array<float, 3> color{1, 1, 1};           ///< linear; multiplies the texture and the vertex colours
+  float roughness = 0.9f;
+  std::shared_ptr<const std::string> texture;    ///< the bytes of a PNG or JPEG file; null: none. Shared textures are stored once
+};
+
+struct MeshLevel {
+  const Mesh* mesh = nullptr;
+  const MeshAttributes* attributes = nullptr;    ///< of this mesh; null: none
+  double screen_coverage = 0;                    ///< share of the screen's height down to which this level is meant to be used
+};
+
+/// What goes into one file; the pointers must outlive the writing.
+struct MeshFile {
+  std::vector<MeshLevel> levels;                 ///< finest first; only .glb takes more than one (MSFT_lod)
+  std::vector<MeshMaterial> materials;           ///< by branch order, the last one goes on; empty: a default
+};
+
 /// Writes to exactly `path` (the caller writes beside and renames); `format` is the extension with its dot (".obj"), since the
-/// path may be a temporary name. glTF is always y-up. Errors: InputError for an unknown extension, std::runtime_error naming
-/// the path when the disk or the writer fails.
+/// path may be a temporary name. glTF is always y-up.
+///   .glb  everything: normals split at creases, tangents, a primitive for each bark, custom attributes (_BRANCH ...), levels
+///   .obj  positions, uv, normals split at creases, smoothing groups; no materials, which would take a second file
+///   .ply  every vertex attribute as a property, uv by corner, creases as an element `edge`
+///   .off  positions, normals, colours;  .stl  facets
+/// Errors: InputError for an unknown extension, no level, or several where the format has one; std::runtime_error naming the path
+/// when the disk or the writer fails. Cost: about a second for five million triangles as .glb. Memory: about the file's size.
+void write_mesh(const MeshFile& file, const std::filesystem::path& path, const std::string& format, UpAxis up);
+
+/// One mesh without attributes.
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const std::string& format, UpAxis up);
 
 }  // namespace cambium

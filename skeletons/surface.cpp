@@ -35,6 +35,19 @@ void describe(const AxisTree& tree, SurfaceReport& report) {
   }
 }
 
+std::vector<BranchInfo> branches_of(const AxisTree& tree) {
+  std::vector<BranchInfo> branches(tree.branch_count);
+  for (const Axis& axis : tree.axes) {
+    BranchInfo& branch = branches[axis.branch];
+    branch.pivot = axis.nodes[0].position;
+    branch.axis = segment_direction(axis, 0);
+    if (axis.parent < 0) continue;
+    branch.parent = static_cast<std::int32_t>(tree.axes[axis.parent].branch);
+    branch.pivot = position_at(tree.axes[axis.parent], axis.attach);
+  }
+  return branches;
+}
+
 }  // namespace
 
 Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
@@ -51,6 +64,7 @@ Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
   const std::vector<AxisFrame> frames = frames_of(tree);
   const std::vector<PlacedScar> scars = place_scars(tree, frames, options, report);
   describe(tree, report);
+  made.branches = branches_of(tree);
 
   BlobTreeBuilder builder;
   const auto build = options.profile == Profile::kChain ? build_chain_profile : build_galbraith_profile;

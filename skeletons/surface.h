@@ -2,6 +2,7 @@
 #pragma once
 
 #include "blobtree/blobtree.h"
+#include "blobtree/branch_info.h"
 #include "blobtree/run_options.h"
 #include "skeletons/skeleton.h"
 
@@ -74,6 +75,7 @@ struct SurfaceReport {
 struct Surfaced {
   BlobTree tree;
   SurfaceReport report;
+  std::vector<BranchInfo> branches;    ///< by branch id; defaults for ids whose axis was pruned away
 };
 
 /// Never fails on a valid skeleton with at least one internode. Deterministic for a seed. Cost: linear in the internodes that come out.

@@ -26,6 +26,17 @@ TEST(Surface, CountsWhatItMade) {
   EXPECT_NEAR(report.total_length, 30, 1e-12);
 }
 
+TEST(Surface, EveryBranchKnowsItsParentAndWhereItLeavesIt) {
+  const std::vector<BranchInfo> branches = surface(fork_tree(0.5, 0.2, 90, 10), {}).branches;
+  ASSERT_EQ(branches.size(), 2u);
+  EXPECT_EQ(branches[0].parent, -1);
+  EXPECT_LT(glm::distance(branches[0].pivot, Vec3(0)), 1e-9);
+  EXPECT_LT(glm::distance(branches[0].axis, Vec3(0, 0, 1)), 1e-9);
+  EXPECT_EQ(branches[1].parent, 0);
+  EXPECT_LT(glm::distance(branches[1].pivot, Vec3(0, 0, 10)), 1e-9);
+  EXPECT_LT(glm::distance(branches[1].axis, Vec3(1, 0, 0)), 1e-9);
+}
+
 TEST(Surface, AnEmptySkeletonAndOptionsOutOfRangeAreInputErrors) {
   EXPECT_THROW(surface({}, {}), InputError);
   SurfaceOptions options;
