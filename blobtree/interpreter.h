@@ -35,8 +35,35 @@ struct TapeView {
   std::uint32_t outside_of(std::size_t frame) const { return tape.frames()[2 * (frame - 1) + 1]; }
 };
 
-template <class Value, class Policy>
-Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch) {
+/// The operators as they are. Other rules have the same members: to see what is chosen, or to choose otherwise.
+struct PlainRules {
+  template <class Value>
+  Value unite(const Instruction&, const Value* f, std::size_t n, bool with_zero) const {
+    return max_of(f, n, with_zero);
+  }
+  template <class Value>
+  Value intersect(const Instruction&, const Value* f, std::size_t n, bool with_zero) const {
+    return min_of(f, n, with_zero);
+  }
+  template <class Value>
+  Value subtract(const Instruction&, const Value& first, const Value* taken, std::size_t n, bool capped) const {
+    return difference_of(first, taken, n, capped);
+  }
+  template <class Value>
+  Value touch(const Instruction&, const Value* f, std::size_t n, bool with_zero, const CompiledBlend& blend) const {
+    return contact_of(f, n, with_zero, blend.width, blend.lip);
+  }
+  /// has_axis: else the axis is not active, and 0.
+  template <class Value>
+  Value fork(const Instruction&, bool has_axis, const Value& axis, const Value* f, const Value* weights, std::size_t n, bool with_zero,
+             const CompiledBlend& blend) const {
+    (void)has_axis;
+    return fork_of(axis, f, weights, n, with_zero, blend.width, blend.lip);
+  }
+};
+
+template <class Value, class Policy, class Rules>
+Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch, Rules& rules) {
   if (view.tape.instructions().empty()) return Value{};
   if (scratch.stack.size() < view.tape.stack_size()) scratch.stack.resize(view.tape.stack_size());
   Value* const stack = scratch.stack.data();
@@ -63,29 +90,24 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
     const bool with_zero = in.with_zero;
     switch (op) {
       case Op::kSum: f[0] = sum_of(f, n); break;
-      case Op::kUnion: f[0] = max_of(f, n, with_zero); break;
-      case Op::kIntersection: f[0] = min_of(f, n, with_zero); break;
+      case Op::kUnion: f[0] = rules.unite(in, f, n, with_zero); break;
+      case Op::kIntersection: f[0] = rules.intersect(in, f, n, with_zero); break;
       case Op::kRicci: f[0] = ricci_of(f, n, view.tree.numbers[node.payload]); break;
       case Op::kScale: f[0] = scaled(f[0], view.tree.numbers[node.payload]); break;
       case Op::kWarp: f[0] = policy.warp(in, f[0]); break;
       case Op::kDifference: {
         const bool has_first = slots[in.first] == 0;
-        f[0] = difference_of(has_first ? f[0] : Value{}, f + has_first, n - has_first, with_zero);
+        f[0] = rules.subtract(in, has_first ? f[0] : Value{}, f + has_first, n - has_first, with_zero);
         break;
       }
-      case Op::kContact: {
-        const CompiledBlend& blend = view.tree.blends[node.payload];
-        f[0] = contact_of(f, n, with_zero, blend.width, blend.lip);
-        break;
-      }
+      case Op::kContact: f[0] = rules.touch(in, f, n, with_zero, view.tree.blends[node.payload]); break;
       case Op::kFork: {
         const CompiledBlend& blend = view.tree.blends[node.payload];
         const bool has_axis = slots[in.first] == 0;
         scratch.weights.clear();
         for (std::size_t k = has_axis; k < n; ++k)
           scratch.weights.push_back(policy.lateral_weight(view.tree.lateral_of(node, slots[in.first + k] - 1), in));
-        f[0] = fork_of(has_axis ? f[0] : Value{}, f + has_axis, scratch.weights.data(), n - has_axis, with_zero, blend.width,
-                       blend.lip);
+        f[0] = rules.fork(in, has_axis, has_axis ? f[0] : Value{}, f + has_axis, scratch.weights.data(), n - has_axis, with_zero, blend);
         break;
       }
       case Op::kPrimitive:
@@ -95,6 +117,12 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
     ++top;
   }
   return stack[0];
+}
+
+template <class Value, class Policy>
+Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch) {
+  const PlainRules rules;
+  return run_tape(view, policy, scratch, rules);
 }
 
 /// Value (and gradient) of f = strength g(x) from a normalised distance x = d * scale.
