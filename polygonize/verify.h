@@ -22,18 +22,22 @@ struct MeshTopology {
   std::size_t degenerate_triangles = 0;    ///< two equal corners, or no area
   std::size_t unused_vertices = 0;
   std::size_t components = 0;
-  std::int64_t euler = 0;                  ///< vertices - edges + triangles
+  std::int64_t euler = 0;                  ///< used vertices - edges + triangles
   double volume = 0;                       ///< cubic metres, signed
 
   bool closed_manifold() const {
     return boundary_edges + nonmanifold_edges + nonmanifold_vertices + degenerate_triangles == 0;
   }
 };
-/// Cost: linear in triangles.
+/// An area is 0 where the corners, as they are, lie exactly on one line. Indices must be those of vertices. nullopt if cancelled.
+/// Runs in the current arena. Cost: linear in triangles.
+std::optional<MeshTopology> check_topology(const Mesh& mesh, const RunOptions& run);
 MeshTopology check_topology(const Mesh& mesh);
 
-/// Pairs of triangles that meet anywhere but in the corners or the edge they share, lower first, ascending. Exact: decided by
-/// robust predicates on the positions as they are. nullopt if cancelled. Cost: near linear in triangles.
+/// Pairs of triangles that meet anywhere but in the corner or the edge they share, lower first, ascending: crossing, touching,
+/// or folded onto each other. Exact: decided by robust predicates on the positions as they are, which must be finite. A triangle
+/// without area counts as the segment it is, and if one corner lies between the others, as meeting what it shares that corner
+/// with. nullopt if cancelled. Cost: near linear in triangles, whatever their sizes; about a microsecond each on one core.
 std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections(const Mesh& mesh, const RunOptions& run);
 
 struct DistanceFigures {
@@ -46,18 +50,20 @@ struct DistanceFigures {
 
 struct VerifyOptions {
   double tolerance = 0;                    ///< metres; 0: within and within_twice stay 1
-  std::size_t surface_samples = 1'000'000; ///< on the implicit surface, about
+  std::size_t surface_samples = 1'000'000; ///< on the implicit surface, about (surface_samples.h)
   bool self_intersections = true;
 };
 
 struct Verification {
   MeshTopology topology;
   std::size_t self_intersections = 0;
-  DistanceFigures mesh_to_surface;         ///< from vertices, edge midpoints and centroids to {f = kIso}
+  DistanceFigures mesh_to_surface;         ///< from vertices, edge midpoints and centroids to {f = kIso}; never less than the
+                                           ///< truth (surface_distance.h), infinite if there is no surface
   DistanceFigures surface_to_mesh;         ///< from points of {f = kIso}, even over its area, to the nearest triangle
 };
 
-/// nullopt if cancelled. Cost: a few microseconds a sample.
+/// nullopt if cancelled. The same at any thread count. Errors: InputError for a tolerance that is not a length, no samples,
+/// coordinates that are not finite, a triangle whose vertex does not exist. Cost: a few microseconds a sample.
 std::optional<Verification> verify_mesh(const Mesh& mesh, const Field& field, const VerifyOptions& options, const RunOptions& run);
 
 }  // namespace cambium

@@ -8,7 +8,7 @@ packages=(
   libopenmesh-dev libtinygltf-dev nlohmann-json3-dev libopenvdb-dev libboost-dev
   libembree-dev libopenimageio-dev
   libcli11-dev libtomlplusplus-dev
-  libgtest-dev libgmock-dev libbenchmark-dev python3 python3-openvdb
+  libgtest-dev libgmock-dev libbenchmark-dev libcgal-dev python3 python3-openvdb
 )
 
 if ! command -v dpkg-query > /dev/null; then

@@ -1,0 +1,101 @@
+#include "polygonize/box_tree.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace cambium {
+namespace {
+
+float at_most(double v) {
+  const float f = static_cast<float>(v);
+  return static_cast<double>(f) <= v ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+
+constexpr std::size_t kTaskLeaves = 256;   // fewer are not worth a task of their own
+
+}  // namespace
+
+BoxTree::BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box_of) {
+  if (count == 0) return;
+  leaves_ = std::bit_ceil((count + kLeaf - 1) / kLeaf);
+  nodes_.resize(2 * leaves_ - 1);
+  boxes_.resize(count);
+  order_.resize(count);
+  std::vector<Bounds> boxes(count);
+  std::vector<Entry> entries(count);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const Box box = box_of(static_cast<std::uint32_t>(i));
+      for (std::size_t a = 0; a < 3; ++a) {
+        const int k = static_cast<int>(a);
+        boxes[i].lo[a] = at_most(box.lo[k]);
+        boxes[i].hi[a] = -at_most(-box.hi[k]);
+        entries[i].center[a] = 0.5f * (boxes[i].lo[a] + boxes[i].hi[a]);
+      }
+      entries[i].index = static_cast<std::uint32_t>(i);
+    }
+  });
+  halve(entries, 0, leaves_);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      order_[i] = entries[i].index;
+      boxes_[i] = boxes[order_[i]];
+    }
+  });
+  const auto join = [](Bounds& to, const Bounds& from) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      to.lo[a] = std::min(to.lo[a], from.lo[a]);
+      to.hi[a] = std::max(to.hi[a], from.hi[a]);
+    }
+  };
+  constexpr float kInf = std::numeric_limits<float>::infinity();
+  tbb::parallel_for(std::size_t{0}, leaves_, [&](std::size_t leaf) {
+    Bounds bounds{{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}};
+    for (std::size_t i = first(leaf); i < first(leaf + 1); ++i) join(bounds, boxes_[i]);
+    nodes_[leaves_ - 1 + leaf] = bounds;
+  });
+  for (std::size_t node = leaves_ - 1; node-- > 0;) {
+    nodes_[node] = nodes_[2 * node + 1];
+    join(nodes_[node], nodes_[2 * node + 2]);
+  }
+}
+
+void BoxTree::halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::size_t end_leaf) {
+  if (end_leaf - begin_leaf <= 1) return;
+  const std::size_t middle_leaf = (begin_leaf + end_leaf) / 2;
+  const auto at = [&](std::size_t leaf) { return entries.begin() + static_cast<std::ptrdiff_t>(first(leaf)); };
+  const auto begin = at(begin_leaf), middle = at(middle_leaf), end = at(end_leaf);
+  if (begin == end) return;
+  std::array<float, 3> lo = begin->center, hi = lo;
+  for (auto e = begin; e != end; ++e) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      lo[a] = std::min(lo[a], e->center[a]);
+      hi[a] = std::max(hi[a], e->center[a]);
+    }
+  }
+  std::size_t axis = 0;
+  for (std::size_t a = 1; a < 3; ++a) {
+    if (hi[a] - lo[a] > hi[axis] - lo[axis]) axis = a;
+  }
+  if (middle != end) {
+    std::nth_element(begin, middle, end, [axis](const Entry& a, const Entry& b) {
+      return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis] : a.index < b.index;
+    });
+  }
+  const auto low = [&] { halve(entries, begin_leaf, middle_leaf); };
+  const auto high = [&] { halve(entries, middle_leaf, end_leaf); };
+  if (end_leaf - begin_leaf > kTaskLeaves) {
+    tbb::parallel_invoke(low, high);
+  } else {
+    low();
+    high();
+  }
+}
+
+}  // namespace cambium

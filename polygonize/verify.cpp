@@ -1,0 +1,208 @@
+#include "polygonize/verify.h"
+
+#include "blobtree/input_error.h"
+#include "blobtree/progress_meter.h"
+#include "polygonize/mesh_distance.h"
+#include "polygonize/surface_distance.h"
+#include "polygonize/surface_samples.h"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cambium {
+namespace {
+
+void check_input(const Mesh& mesh, const VerifyOptions& options) {
+  if (!(options.tolerance >= 0) || !std::isfinite(options.tolerance)) {
+    throw InputError({}, fmt::format("a tolerance of {:g}", options.tolerance), "a length, or 0 for none");
+  }
+  if (options.surface_samples == 0) throw InputError({}, "0 surface samples", "at least 1");
+  for (const Vec3& p : mesh.positions) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw InputError({}, "a vertex that is nowhere", "finite coordinates");
+    }
+  }
+  for (const auto& t : mesh.triangles) {
+    const std::uint32_t v = std::max({t[0], t[1], t[2]});
+    if (v >= mesh.positions.size()) {
+      throw InputError({}, fmt::format("a triangle with vertex {}", v), fmt::format("one of {} vertices", mesh.positions.size()));
+    }
+  }
+}
+
+// Samples and their distances, in groups that threads take; in a fixed order.
+struct Group {
+  std::vector<double> distances;
+  double max = -1;
+  Vec3 max_at{0.0};
+
+  void add(const Vec3& p, double distance) {
+    distances.push_back(distance);
+    if (distance > max) max = distance, max_at = p;
+  }
+};
+
+DistanceFigures figures_of(const std::vector<Group>& groups, double tolerance) {
+  DistanceFigures figures;
+  std::vector<double> all;
+  figures.max = -1;
+  for (const Group& g : groups) {
+    all.insert(all.end(), g.distances.begin(), g.distances.end());
+    if (g.max > figures.max) figures.max = g.max, figures.max_at = g.max_at;
+  }
+  figures.max = std::max(figures.max, 0.0);
+  figures.samples = all.size();
+  if (all.empty()) return figures;
+  const double n = static_cast<double>(all.size());
+  double sum = 0;
+  std::size_t within = 0, within_twice = 0;
+  for (const double d : all) {
+    sum += d;
+    within += d <= tolerance;
+    within_twice += d <= 2 * tolerance;
+  }
+  figures.mean = sum / n;
+  if (tolerance > 0) {
+    figures.within = static_cast<double>(within) / n;
+    figures.within_twice = static_cast<double>(within_twice) / n;
+  }
+  const auto quantile = [&](double share) {   // the least distance that this share of the samples does not exceed
+    const auto k = static_cast<std::ptrdiff_t>(std::ceil(share * n)) - 1;
+    std::nth_element(all.begin(), all.begin() + k, all.end());
+    return all[static_cast<std::size_t>(k)];
+  };
+  figures.p999 = quantile(0.999);
+  figures.p99 = quantile(0.99);
+  return figures;
+}
+
+std::optional<DistanceFigures> measure_surface_to_mesh(const SurfaceSamples& samples, const MeshDistance& mesh, double tolerance,
+                                                       const RunOptions& run) {
+  constexpr std::size_t kGroup = 256;
+  std::vector<Group> groups((samples.points.size() + kGroup - 1) / kGroup);
+  ProgressMeter progress(run, "measuring from the surface");
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    if (run.cancelled()) return;
+    for (std::size_t i = g * kGroup; i < std::min(samples.points.size(), (g + 1) * kGroup); ++i) {
+      const Vec3& p = samples.points[i];
+      // The last sample is near by, and its triangle not farther than it and the way between them.
+      const bool follows = i > g * kGroup;
+      const double hint = follows ? groups[g].distances.back() + glm::length(p - samples.points[i - 1]) : kInfinity;
+      groups[g].add(p, mesh(p, hint));
+    }
+    progress.add(1.0 / static_cast<double>(groups.size()));
+  });
+  if (run.cancelled()) return std::nullopt;
+  return figures_of(groups, tolerance);
+}
+
+// From the mesh's samples to the surface. Where the gradient does not lead there, or leads far, the nearest of the surface's own
+// samples is the start of another search.
+class MeshToSurface {
+ public:
+  MeshToSurface(const Mesh& mesh, const Field& field, const MeshDistance& places, const SurfaceSamples& surface, double tolerance)
+      : mesh_(mesh), field_(field), places_(places.tree()), surface_(surface), owner_(mesh.positions.size(), 0),
+        surface_tree_(surface.points.size(), [&](std::uint32_t i) { return Box{surface.points[i], surface.points[i]}; }),
+        far_(tolerance > 0 ? std::min(tolerance, surface.spacing) : surface.spacing) {
+    for (std::size_t i = mesh.triangles.size(); i-- > 0;)
+      for (const std::uint32_t v : mesh.triangles[i]) owner_[v] = static_cast<std::uint32_t>(i);
+  }
+
+  std::optional<DistanceFigures> measure(double tolerance, const RunOptions& run) const {
+    constexpr std::size_t kLeaves = 4;   // a few dozen triangles share a pruned field
+    std::vector<Group> groups((places_.leaf_count() + kLeaves - 1) / kLeaves);
+    ProgressMeter progress(run, "measuring from the mesh");
+    tbb::enumerable_thread_specific<SurfaceDistance> distances([&] { return SurfaceDistance(field_); });
+    tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+      const std::size_t last = std::min(places_.leaf_count(), (g + 1) * kLeaves) - 1;
+      measure_group(places_.leaf_begin(g * kLeaves), places_.leaf_end(last), distances.local(), groups[g], run);
+      progress.add(1.0 / static_cast<double>(groups.size()));
+    });
+    if (run.cancelled()) return std::nullopt;
+    return figures_of(groups, tolerance);
+  }
+
+ private:
+  void measure_group(const std::uint32_t* begin, const std::uint32_t* end, SurfaceDistance& distance, Group& group,
+                     const RunOptions& run) const {
+    if (run.cancelled() || begin == end) return;
+    Box box;
+    for (const std::uint32_t* i = begin; i != end; ++i)
+      for (const std::uint32_t v : mesh_.triangles[*i]) box.extend(mesh_.positions[v]);
+    const PrunedField near = field_.prune(box.padded(0.25 * glm::length(box.size())));
+    const auto add = [&](const Vec3& p) {
+      if (!run.cancelled()) group.add(p, from(near, p, distance));
+    };
+    for (const std::uint32_t* i = begin; i != end; ++i) {
+      const auto& t = mesh_.triangles[*i];
+      const std::array<Vec3, 3> p{mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]};
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (owner_[t[k]] == *i) add(p[k]);
+        if (t[k] < t[(k + 1) % 3]) add(0.5 * (p[k] + p[(k + 1) % 3]));   // the triangle across has it the other way round
+      }
+      add((p[0] + p[1] + p[2]) / 3.0);
+    }
+  }
+
+  double from(const PrunedField& near, const Vec3& p, SurfaceDistance& distance) const {
+    const auto foot = distance.nearest(near, p);
+    double best = foot ? foot->distance : kInfinity;
+    if (!(best > far_)) return best;
+    std::uint32_t nearest = 0;
+    double least = kInfinity;
+    surface_tree_.nearest2(p, kInfinity, [&](std::uint32_t i) {
+      const Vec3 d = p - surface_.points[i];
+      const double distance2 = glm::dot(d, d);
+      if (distance2 < least) least = distance2, nearest = i;
+      return distance2;
+    });
+    if (least < kInfinity) best = std::min(best, distance.slide(near, p, surface_.points[nearest]).distance);
+    return best;
+  }
+
+  const Mesh& mesh_;
+  const Field& field_;
+  const BoxTree& places_;
+  const SurfaceSamples& surface_;
+  std::vector<std::uint32_t> owner_;       // of a vertex: the triangle that measures it
+  BoxTree surface_tree_;
+  double far_;
+};
+
+std::optional<Verification> verify_in_arena(const Mesh& mesh, const Field& field, const VerifyOptions& options,
+                                            const RunOptions& run) {
+  Verification result;
+  const auto topology = check_topology(mesh, run);
+  if (!topology) return std::nullopt;
+  result.topology = *topology;
+  if (options.self_intersections) {
+    const auto pairs = self_intersections(mesh, run);
+    if (!pairs) return std::nullopt;
+    result.self_intersections = pairs->size();
+  }
+  const auto surface = sample_surface(field, options.surface_samples, run);
+  if (!surface) return std::nullopt;
+  const MeshDistance to_mesh(mesh);
+  const auto from_surface = measure_surface_to_mesh(*surface, to_mesh, options.tolerance, run);
+  if (!from_surface) return std::nullopt;
+  result.surface_to_mesh = *from_surface;
+  const auto from_mesh = MeshToSurface(mesh, field, to_mesh, *surface, options.tolerance).measure(options.tolerance, run);
+  if (!from_mesh) return std::nullopt;
+  result.mesh_to_surface = *from_mesh;
+  return result;
+}
+
+}  // namespace
+
+std::optional<Verification> verify_mesh(const Mesh& mesh, const Field& field, const VerifyOptions& options, const RunOptions& run) {
+  check_input(mesh, options);
+  tbb::task_arena arena(run.threads > 0 ? run.threads : tbb::task_arena::automatic);
+  return arena.execute([&] { return verify_in_arena(mesh, field, options, run); });
+}
+
+}  // namespace cambium

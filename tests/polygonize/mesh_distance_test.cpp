@@ -1,0 +1,76 @@
+#include "polygonize/mesh_distance.h"
+
+#include "tests/blobtree/random_blobtrees.h"
+#include "tests/polygonize/simple_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace cambium {
+namespace {
+
+const Box kAround{Vec3(-2), Vec3(2)};
+
+double slowly(const Mesh& mesh, const Vec3& p) {
+  double least = kInfinity;
+  for (const auto& t : mesh.triangles) {
+    least = std::min(least, distance2_to_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
+  }
+  return std::sqrt(least);
+}
+
+TEST(MeshDistance, OfATriangleToItsFaceItsEdgesAndItsCorners) {
+  const Vec3 o(0), x(1, 0, 0), y(0, 1, 0);
+  const auto distance = [&](const Vec3& p) { return std::sqrt(distance2_to_triangle(p, o, x, y)); };
+  EXPECT_DOUBLE_EQ(distance({0.2, 0.3, -2}), 2);
+  EXPECT_DOUBLE_EQ(distance({0.5, -3, 0}), 3);
+  EXPECT_DOUBLE_EQ(distance({2, 2, 0}), std::sqrt(4.5));
+  EXPECT_DOUBLE_EQ(distance({-3, -4, 0}), 5);
+  EXPECT_DOUBLE_EQ(distance({4, 0, 4}), 5);
+  EXPECT_DOUBLE_EQ(std::sqrt(distance2_to_triangle({0, 3, 0}, o, x, 2.0 * x)), 3);      // no area: a segment
+  EXPECT_DOUBLE_EQ(std::sqrt(distance2_to_triangle({4, 3, 0}, o, x, 2.0 * x)), std::sqrt(13.0));
+  EXPECT_DOUBLE_EQ(std::sqrt(distance2_to_triangle({3, 4, 0}, o, o, o)), 5);            // a point
+}
+
+TEST(MeshDistance, TheTreeFindsTheNearestOfTrianglesOfAnySize) {
+  Draws draws(1);
+  Mesh mesh = testing::joined(testing::ball_mesh(4, 1), testing::ball_mesh(3, 0.004, Vec3(1.02, 0, 0)));
+  mesh = testing::joined(std::move(mesh), testing::ball_mesh(0, 50, Vec3(0, 0, -60)));
+  const MeshDistance distance(mesh);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = i % 3 ? draws.point(kAround) : Vec3(1.02, 0, 0) + 0.01 * draws.direction();
+    const double true_distance = slowly(mesh, p);
+    EXPECT_EQ(distance(p), true_distance);
+    EXPECT_EQ(distance(p, true_distance), true_distance);
+    EXPECT_EQ(distance(p, 1.5 * true_distance), true_distance);
+  }
+}
+
+TEST(MeshDistance, ToNoTriangleIsInfinite) {
+  const Mesh empty;
+  EXPECT_EQ(MeshDistance(empty)(Vec3(0)), kInfinity);
+}
+
+TEST(BoxTree, OverlapsAreThoseOfEveryPairAndEachOnce) {
+  for (const std::size_t n : {1, 7, 8, 9, 100, 1000}) {
+    Draws draws(n);
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 at = draws.point(kAround), half = std::pow(10.0, draws.in(-3, -0.3)) * Vec3(draws.in(0, 1), draws.in(0, 1), draws.in(0, 1));
+      boxes.push_back({at - half, at + half});
+    }
+    const BoxTree tree(n, [&](std::uint32_t i) { return boxes[i]; });
+    std::multiset<std::array<std::uint32_t, 2>> found, wanted;
+    for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
+      tree.overlaps(leaf, [&](std::uint32_t i, std::uint32_t j) { found.insert({std::min(i, j), std::max(i, j)}); });
+    }
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t j = i + 1; j < n; ++j)
+        if (boxes[i].intersects(boxes[j])) wanted.insert({i, j});
+    EXPECT_EQ(found, wanted) << n;
+  }
+}
+
+}  // namespace
+}  // namespace cambium
