@@ -88,7 +88,7 @@ SurfaceDistance::Foot SurfaceDistance::slide(const PrunedField& near, const Vec3
 SurfaceDistance::Foot SurfaceDistance::slide(const PrunedField& near, const Vec3& p, Landing foot) {
   double distance = glm::length(p - foot.point);
   double share = 1;
-  for (int round = 0; round < 12 && distance > kAbsolute; ++round) {
+  for (int round = 0; round < 20 && distance > kAbsolute; ++round) {
     const double slope = glm::length(foot.gradient);
     if (!(slope > 0)) break;
     const Vec3 n = foot.gradient / slope, away = p - foot.point;
@@ -96,15 +96,10 @@ SurfaceDistance::Foot SurfaceDistance::slide(const PrunedField& near, const Vec3
     if (glm::length(along) < 0.04 * distance) break;   // to a thousandth of the distance, it is the foot
     const auto next = land(near, foot.point + share * along, distance, std::max(kAbsolute, 0.1 * kRelative * distance));
     const double nearer = next ? glm::length(p - next->point) : kInfinity;
-    if (nearer < distance) {
-      const bool settled = nearer > (1 - 0.1 * kRelative) * distance;
-      foot = *next;
-      distance = nearer;
-      if (settled) break;
-    } else {
-      share *= 0.5;
-      if (share < 0.1) break;
-    }
+    // On a crease a step across it gains little or nothing: shorter ones end at its nearest point.
+    if (!(nearer < (1 - 0.1 * kRelative) * distance)) share *= 0.5;
+    if (nearer < distance) foot = *next, distance = nearer;
+    if (share < 0.01) break;
   }
   return {foot.point, distance};
 }

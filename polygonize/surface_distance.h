@@ -18,9 +18,10 @@ class SurfaceDistance {
   };
   /// The nearest point of the surface as steps along the gradient find it (Newton; a bracket as soon as the sign changes, so
   /// that creases do no harm), then moved along the surface as long as that brings it nearer. Its distance is never less than the
-  /// true one, but for 1e-9 m and a thousandth; on smooth surface, and from nearer than its radius of curvature, it is the
-  /// true one. nullopt where the gradient leads nowhere: it vanishes, or the surface is far. `near` must be exact where
-  /// its box says; outside of that the field itself is asked, at ten times the cost. Cost: two or three samples.
+  /// true one, but for 1e-9 m and a thousandth. On smooth surface, and from nearer than its radius of curvature, it is the
+  /// true one; where the nearest point lies on a crease it may be 3 % more. nullopt where the gradient leads nowhere: it
+  /// vanishes, or the surface is far. `near` must be exact where its box says; outside of that the field itself is asked, at ten
+  /// times the cost. Cost: two or three samples.
   std::optional<Foot> nearest(const PrunedField& near, const Vec3& p);
 
   /// The same from a point that is known to lie on the surface; never farther than that.

@@ -60,14 +60,14 @@ TEST(SurfaceDistance, OnCreasesItIsTheDistanceToTheEdge) {
     const Vec3 out(0, std::cos(turn), std::sin(turn));
     // Outside of the ridge the edge itself, at 0.8, is nearest; below the valley likewise.
     const double d = std::pow(10.0, draws.in(-5, -1.5));
-    const auto above = nearest(ridge, (0.8 + d) * out + Vec3(draws.in(-0.2, 0.2) * d, 0, 0));
-    ASSERT_TRUE(above.has_value());
-    EXPECT_GT(above->distance, d * 0.999);
-    EXPECT_LT(above->distance, d * 1.03);
-    const auto below = nearest(valley, (0.8 - d) * out + Vec3(draws.in(-0.2, 0.2) * d, 0, 0));
-    ASSERT_TRUE(below.has_value());
-    EXPECT_GT(below->distance, d * 0.999);
-    EXPECT_LT(below->distance, d * 1.03);
+    for (const bool above : {true, false}) {
+      const Vec3 p = (above ? 0.8 + d : 0.8 - d) * out + Vec3(draws.in(-0.2, 0.2) * d, 0, 0);
+      const auto foot = nearest(above ? ridge : valley, p);
+      ASSERT_TRUE(foot.has_value());
+      const double to_edge = glm::length(p - 0.8 * out);
+      EXPECT_GT(foot->distance, to_edge * 0.999);
+      EXPECT_LT(foot->distance, to_edge * 1.03);
+    }
     // Above the valley the two sheets are nearer than the edge.
     const Vec3 p = (0.8 + d) * out;
     const auto over = nearest(valley, p);
