@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 namespace cambium {
 namespace {
 
@@ -50,26 +48,6 @@ TEST(MeshDistance, TheTreeFindsTheNearestOfTrianglesOfAnySize) {
 TEST(MeshDistance, ToNoTriangleIsInfinite) {
   const Mesh empty;
   EXPECT_EQ(MeshDistance(empty)(Vec3(0)), kInfinity);
-}
-
-TEST(BoxTree, OverlapsAreThoseOfEveryPairAndEachOnce) {
-  for (const std::size_t n : {1, 7, 8, 9, 100, 1000}) {
-    Draws draws(n);
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec3 at = draws.point(kAround), half = std::pow(10.0, draws.in(-3, -0.3)) * Vec3(draws.in(0, 1), draws.in(0, 1), draws.in(0, 1));
-      boxes.push_back({at - half, at + half});
-    }
-    const BoxTree tree(n, [&](std::uint32_t i) { return boxes[i]; });
-    std::multiset<std::array<std::uint32_t, 2>> found, wanted;
-    for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf) {
-      tree.overlaps(leaf, [&](std::uint32_t i, std::uint32_t j) { found.insert({std::min(i, j), std::max(i, j)}); });
-    }
-    for (std::uint32_t i = 0; i < n; ++i)
-      for (std::uint32_t j = i + 1; j < n; ++j)
-        if (boxes[i].intersects(boxes[j])) wanted.insert({i, j});
-    EXPECT_EQ(found, wanted) << n;
-  }
 }
 
 }  // namespace
