@@ -96,6 +96,31 @@ double turns(double angle) {
   return std::min(t - std::floor(t), std::nextafter(1.0, 0.0));
 }
 
+/// Metres along one segment of a chain, q being counted from its begin. Between segments they are measured by planes that halve the
+/// angle, so v neither skips nor stands still where a chain turns, as the nearest parameter does; past the ends of the chain the
+/// last segment goes straight on, so v does not stand still on a rounded tip.
+double metres_along(const CompiledTree& tree, std::uint32_t atom, const SweptSegment<double>& segment, const Vec3& q) {
+  const double h = glm::dot(q, segment.axis);
+  if (!(segment.end > 0)) return h;
+  const CompiledNode& chain = tree.node_of(atom);
+  const std::uint32_t last = chain.first_atom + tree.chains[chain.payload].node_count - 2;
+  // How far a plane is passed, along this segment's axis.
+  const auto passed = [&](std::uint32_t neighbour, const Vec3& from) {
+    const SweptSegment<double> next = tree.segment_of(neighbour);
+    const double cosine = glm::dot(next.axis, segment.axis);
+    if (!(next.end > 0) || !(cosine > 0)) return glm::dot(from, segment.axis);
+    return (glm::dot(from, segment.axis) + glm::dot(from, next.axis)) / (1 + cosine);
+  };
+  if (atom == chain.first_atom && h <= 0) return h;
+  if (atom == last && h >= segment.end) return h;
+  const Vec3 to_end = q - segment.end * segment.axis;
+  const double since = atom == chain.first_atom ? h : passed(atom - 1, q);
+  const double until = -(atom == last ? glm::dot(to_end, segment.axis) : passed(atom + 1, to_end));
+  if (since <= 0) return 0;
+  if (until <= 0) return segment.end;
+  return segment.end * since / (since + until);
+}
+
 }  // namespace
 
 Evaluator::Evaluator() : scratch_(std::make_unique<Scratch>()) {}
@@ -187,12 +212,14 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
     if (!(weight > 0)) continue;
     Contribution c;
     c.weight = weight;
+    c.primitive = in.node;
     c.branch = tree.leaf_of(node).branch;
     c.order = tree.leaf_of(node).order;
     const Vec3& q = s.points[in.frame];
     const auto place = [&](const CarriedCoordinates& at, const Vec3& origin, double along) {
       const Vec3 from = q - origin;
       c.v = at.v + along;
+      c.from_axis = glm::length(from - glm::dot(from, at.axis) * at.axis);
       c.u = turns(std::atan2(glm::dot(from, glm::cross(at.axis, at.u)), glm::dot(from, at.u)));
     };
     if (op == Op::kChain) {
@@ -206,9 +233,9 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
         }
       }
       const SweptSegment<double>& segment = s.shapes.segments()[winner];
-      const double along = closest_parameter(segment, q - segment.a);
-      c.radius = segment.radius_at(along);
-      place(scratch_->shapes.coordinates(view, winner), segment.a, along);
+      c.radius = segment.radius_at(closest_parameter(segment, q - segment.a));
+      place(scratch_->shapes.coordinates(view, winner), segment.a,
+            metres_along(tree, view.tape.slots()[winner], segment, q - segment.a));
     } else {
       const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.instructions().data()));
       const NativeAxis native = native_axis(primitive);

@@ -28,8 +28,10 @@ struct Sample {
 struct Contribution {
   double weight = 0;
   double u = 0;        ///< turns, [0, 1)
-  double v = 0;        ///< metres along the branch axis
+  double v = 0;        ///< metres along the branch axis, straight on beyond its ends
   double radius = 0;   ///< local surface radius, metres
+  double from_axis = 0;             ///< metres from the line through the nearest piece of the axis
+  std::uint32_t primitive = 0;      ///< which one (a chain is one): the same number all over the field
   std::uint32_t branch = 0;
   std::uint32_t order = 0;
 };

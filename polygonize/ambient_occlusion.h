@@ -17,8 +17,9 @@ struct OcclusionOptions {
 };
 
 /// One value in [0, 1] per vertex: 1 where nothing is in the way, 0 where everything is (cosine-weighted; what stands nearer
-/// than `reach` counts, the nearer the more). The mesh needs normals. nullopt if cancelled. The same at any thread count.
-/// Errors: InputError for a reach that is no length or a number of rays out of range.
+/// than `reach` counts, the nearer the more). nullopt if cancelled. The same at any thread count.
+/// Errors: std::invalid_argument for a mesh without normals, InputError for a reach that is no length or a number of rays out of
+/// range.
 /// Cost: about a microsecond for four rays. Memory: Embree's, some 100 bytes a triangle.
 std::optional<std::vector<float>> ambient_occlusion(const Mesh& mesh, const OcclusionOptions& options, const RunOptions& run);
 
