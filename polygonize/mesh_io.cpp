@@ -11,8 +11,19 @@
 #include <stdexcept>
 
 namespace cambium {
+namespace {
 
-void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const std::string& format, UpAxis up) {
+bool write(const MeshFile& file, std::ostream& out, const std::string& extension, UpAxis up) {
+  if (extension == ".glb") return write_glb(file, out);
+  const MeshLevel& level = file.levels.front();
+  if (extension == ".obj") return write_obj(level, out, up);
+  if (extension == ".ply") return write_ply(level, out, up);
+  return write_with_openmesh(level, out, extension.substr(1), up);
+}
+
+}  // namespace
+
+void write_mesh(const MeshFile& file, const std::filesystem::path& path, const std::string& format, UpAxis up) {
   std::string extension = format;
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const bool known = extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".off" ||
@@ -21,6 +32,13 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const std::
     throw InputError({path.string(), 0, 0}, format.empty() ? "a file name without an extension" : "extension " + format,
                      ".obj, .ply, .stl, .off or .glb");
   }
+  if (file.levels.empty()) throw InputError({path.string(), 0, 0}, "no level of detail", "at least one");
+  if (file.levels.size() > 1 && extension != ".glb")
+    throw InputError({path.string(), 0, 0}, std::to_string(file.levels.size()) + " levels of detail in one " + extension,
+                     "one level, or .glb");
+  for (const MeshMaterial& material : file.materials)
+    if (material.texture && image_type(*material.texture).empty())
+      throw InputError({path.string(), 0, 0}, "a texture of " + material.name + " in another format", "PNG or JPEG");
   errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   const auto fail = [&](const std::string& reason) {
@@ -31,13 +49,17 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const std::
   if (!out) fail(system_reason());
   bool written = false;
   try {
-    written = extension == ".glb" ? write_glb(mesh, out) : write_with_openmesh(mesh, out, extension.substr(1), up);
+    written = write(file, out, extension, up);
   } catch (const std::exception& error) {
     fail(error.what());
   }
   out.flush();
   if (!out) fail(system_reason());
   if (!written) fail("the writer for " + extension + " refused it");
+}
+
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const std::string& format, UpAxis up) {
+  write_mesh(MeshFile{{{&mesh, nullptr, 0}}, {}}, path, format, up);
 }
 
 }  // namespace cambium

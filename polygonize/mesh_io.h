@@ -41,7 +41,8 @@ struct MeshFile {
 ///   .obj  positions, uv, normals split at creases, smoothing groups; no materials, which would take a second file
 ///   .ply  every vertex attribute as a property, uv by corner, creases as an element `edge`
 ///   .off  positions, normals, colours;  .stl  facets
-/// Errors: InputError for an unknown extension, no level, or several where the format has one; std::runtime_error naming the path
+/// Errors: InputError for an unknown extension, no level, several where the format has one, or a texture that is neither PNG nor
+/// JPEG; std::runtime_error naming the path
 /// when the disk or the writer fails. Cost: about a second for five million triangles as .glb. Memory: about the file's size.
 void write_mesh(const MeshFile& file, const std::filesystem::path& path, const std::string& format, UpAxis up);
 

@@ -1,14 +1,23 @@
 #include "polygonize/mesh_formats.h"
+#include "polygonize/vertex_split.h"
 
-#include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
-#include <cstring>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace cambium {
 namespace {
+
+using Json = nlohmann::ordered_json;
+static_assert(std::endian::native == std::endian::little, "as glTF's buffers are");
+
+constexpr int kFloat = 5126, kByte = 5121, kUnsignedInt = 5125, kVertices = 34962, kIndices = 34963;
 
 // glTF takes vertex colours as linear light; ours are sRGB (IEC 61966-2-1).
 std::array<std::uint8_t, 256> linear_from_srgb() {
@@ -21,116 +30,232 @@ std::array<std::uint8_t, 256> linear_from_srgb() {
   return table;
 }
 
-// Appends one array to the only buffer and returns its accessor. Bytes must be a multiple of four.
-class BufferPacker {
- public:
-  explicit BufferPacker(tinygltf::Model& model) : model_(model) { model_.buffers.emplace_back(); }
+glm::vec3 y_up(const glm::vec3& v) { return turned(v, UpAxis::kY); }
 
-  unsigned char* add(std::size_t count, std::size_t bytes_each, int component, int type, int target, bool normalized) {
-    auto& data = model_.buffers[0].data;
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = data.size();
-    view.byteLength = count * bytes_each;
-    view.target = target;
-    data.resize(data.size() + view.byteLength);
-    tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
-    accessor.componentType = component;
-    accessor.type = type;
-    accessor.count = count;
-    accessor.normalized = normalized;
-    model_.bufferViews.push_back(view);
-    model_.accessors.push_back(accessor);
-    return data.data() + view.byteOffset;
+// The header, and beside it what will fill the binary chunk when its turn comes: the file is never in memory as a whole.
+class Document {
+ public:
+  Document() {
+    json_["asset"] = {{"version", "2.0"}, {"generator", "Cambium"}};
+    json_["scene"] = 0;
+    json_["scenes"] = Json::array({Json::object()});
   }
-  tinygltf::Accessor& last() { return model_.accessors.back(); }
-  int last_index() const { return static_cast<int>(model_.accessors.size()) - 1; }
+  Json& json() { return json_; }
+
+  /// Appends to one of the document's lists and returns the index there.
+  std::size_t add(const char* list, Json value) {
+    json_[list].push_back(std::move(value));
+    return json_[list].size() - 1;
+  }
+
+  std::size_t add_view(std::size_t bytes, std::optional<int> target, std::function<void(ByteSink&)> fill) {
+    Json view = {{"buffer", 0}, {"byteOffset", size_}, {"byteLength", bytes}};
+    if (target) view["target"] = *target;
+    size_ += (bytes + 3) / 4 * 4;
+    fills_.push_back([fill = std::move(fill), bytes](ByteSink& sink) {
+      fill(sink);
+      for (std::size_t i = bytes; i % 4 != 0; ++i) sink.put('\0');
+    });
+    return add("bufferViews", std::move(view));
+  }
+
+  /// `value(i)` gives what is stored of the i-th of `count`: a float, a glm vector of floats, four bytes, or an index.
+  template <class Value>
+  std::size_t add_accessor(std::size_t count, const char* type, int component, int target, Value value) {
+    using Stored = decltype(value(std::size_t{0}));
+    const std::size_t view = add_view(count * sizeof(Stored), target, [count, value](ByteSink& sink) {
+      for (std::size_t i = 0; i < count; ++i) sink.put(value(i));
+    });
+    return add("accessors", {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
+  }
+
+  bool write(std::ostream& out) {
+    if (size_ > 0) json_["buffers"] = Json::array({{{"byteLength", size_}}});
+    std::string header = json_.dump();
+    header.append((4 - header.size() % 4) % 4, ' ');
+    const std::uint64_t total = 12 + 8 + header.size() + (size_ > 0 ? 8 + size_ : 0);
+    if (total > std::numeric_limits<std::uint32_t>::max())
+      throw std::runtime_error("a .glb file holds at most 4 GiB; use .ply or coarser cells");
+    ByteSink sink(out);
+    const auto word = [&](std::uint64_t value) { sink.put(static_cast<std::uint32_t>(value)); };
+    sink.text("glTF");
+    word(2);
+    word(total);
+    word(header.size());
+    sink.text("JSON");
+    sink.text(header);
+    if (size_ > 0) {
+      word(size_);
+      sink.text(std::string_view("BIN\0", 4));
+      for (const auto& fill : fills_) fill(sink);
+    }
+    return true;
+  }
 
  private:
-  tinygltf::Model& model_;
+  Json json_;
+  std::uint64_t size_ = 0;
+  std::vector<std::function<void(ByteSink&)>> fills_;
 };
 
-int add_vectors(BufferPacker& packer, std::size_t count, const std::function<glm::vec3(std::size_t)>& vector, bool bounds) {
-  unsigned char* out = packer.add(count, sizeof(float) * 3, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                                  TINYGLTF_TARGET_ARRAY_BUFFER, false);
-  glm::vec3 low(0.0f), high(0.0f);
-  for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3 v = vector(i);
-    const float xyz[3] = {v.x, v.y, v.z};
-    std::memcpy(out + i * sizeof(xyz), xyz, sizeof(xyz));
-    low = i ? glm::min(low, v) : v;
-    high = i ? glm::max(high, v) : v;
+/// The file's materials, each with its texture; a texture that several share is stored once.
+void add_materials(const std::vector<MeshMaterial>& materials, Document& document) {
+  std::vector<const std::string*> known;
+  for (const MeshMaterial& material : materials) {
+    Json look = {{"metallicFactor", 0}, {"roughnessFactor", material.roughness}};
+    if (material.color != std::array<float, 3>{1, 1, 1})
+      look["baseColorFactor"] = {material.color[0], material.color[1], material.color[2], 1};
+    if (material.texture) {
+      auto at = std::find(known.begin(), known.end(), material.texture.get());
+      if (at == known.end()) {
+        const auto bytes = material.texture;
+        const std::size_t view = document.add_view(bytes->size(), std::nullopt,
+                                                   [bytes](ByteSink& sink) { sink.raw(bytes->data(), bytes->size()); });
+        const std::size_t image = document.add("images", {{"bufferView", view}, {"mimeType", image_type(*bytes)}});
+        document.add("textures", {{"source", image}});
+        at = known.insert(known.end(), bytes.get());
+      }
+      look["baseColorTexture"] = {{"index", at - known.begin()}};
+    }
+    document.add("materials", {{"name", material.name}, {"pbrMetallicRoughness", std::move(look)}});
   }
-  if (bounds) {
-    packer.last().minValues = {low.x, low.y, low.z};
-    packer.last().maxValues = {high.x, high.y, high.z};
-  }
-  return packer.last_index();
 }
 
-void add_mesh(const Mesh& mesh, tinygltf::Model& model) {
-  BufferPacker packer(model);
-  const std::size_t vertices = mesh.positions.size();
-  model.buffers[0].data.reserve(vertices * 28 + mesh.triangles.size() * 12);
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.attributes["POSITION"] =
-      add_vectors(packer, vertices, [&](std::size_t i) { return glm::vec3(turned(mesh.positions[i], UpAxis::kY)); }, true);
-  if (!mesh.normals.empty()) {
-    primitive.attributes["NORMAL"] =
-        add_vectors(packer, vertices, [&](std::size_t i) { return turned(mesh.normals[i], UpAxis::kY); }, false);
-  }
-  if (!mesh.colors.empty()) {
-    const auto linear = linear_from_srgb();
-    unsigned char* out = packer.add(vertices, 4, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4,
-                                    TINYGLTF_TARGET_ARRAY_BUFFER, true);
-    for (const auto& c : mesh.colors) {
-      *out++ = linear[c[0]];
-      *out++ = linear[c[1]];
-      *out++ = linear[c[2]];
-      *out++ = c[3];
+/// What every vertex of a level carries; its primitives share it. What is handed to the document outlives the writer.
+class LevelWriter {
+ public:
+  LevelWriter(const MeshLevel& level, const SplitMesh& split, Document& document)
+      : level_(level), split_(split), document_(document) {}
+
+  Json attributes() {
+    const Mesh& mesh = *level_.mesh;
+    const SplitMesh& split = split_;
+    add("POSITION", "VEC3", [&](std::size_t i) { return y_up(glm::vec3(mesh.positions[split.vertex[i]])); });
+    add_bounds();
+    if (!split.normals.empty()) add("NORMAL", "VEC3", [&](std::size_t i) { return y_up(split.normals[i]); });
+    if (!split.tangents.empty())
+      add("TANGENT", "VEC4", [&](std::size_t i) { return glm::vec4(y_up(glm::vec3(split.tangents[i])), split.tangents[i].w); });
+    if (!split.uv.empty()) {
+      const MeshAttributes& a = *level_.attributes;
+      // Its v runs down the image.
+      add("TEXCOORD_0", "VEC2", [&](std::size_t i) { return glm::vec2(a.uvs[split.uv[i]].x, 1 - a.uvs[split.uv[i]].y); });
+      add("TEXCOORD_1", "VEC2", [&](std::size_t i) { return a.unrolled[split.uv[i]]; });
     }
-    primitive.attributes["COLOR_0"] = packer.last_index();
+    add_colors();
+    if (level_.attributes) add_branches(*level_.attributes);
+    return std::move(attributes_);
   }
-  unsigned char* out = packer.add(mesh.triangles.size() * 3, sizeof(std::uint32_t), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                  TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, false);
-  std::memcpy(out, mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
-  primitive.indices = packer.last_index();
 
-  tinygltf::Material material;
-  material.name = "bark";
-  material.pbrMetallicRoughness.metallicFactor = 0;
-  material.pbrMetallicRoughness.roughnessFactor = 0.9;
-  model.materials.push_back(material);
-  primitive.material = 0;
+ private:
+  /// `value` is called when the file is written; of the writer it may have nothing but references to what that refers to.
+  template <class Value>
+  void add(const char* name, const char* type, const Value& value) {
+    attributes_[name] = document_.add_accessor(split_.vertex.size(), type, kFloat, kVertices, value);
+  }
 
-  tinygltf::Mesh shape;
-  shape.name = "tree";
-  shape.primitives.push_back(primitive);
-  model.meshes.push_back(shape);
-  tinygltf::Node node;
-  node.name = "tree";
-  node.mesh = 0;
-  model.nodes.push_back(node);
+  void add_bounds() {
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const std::uint32_t v : split_.vertex) {
+      const glm::vec3 p = y_up(glm::vec3(level_.mesh->positions[v]));
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    Json& accessor = document_.json()["accessors"].back();
+    accessor["min"] = {low.x, low.y, low.z};
+    accessor["max"] = {high.x, high.y, high.z};
+  }
+
+  void add_colors() {
+    const auto& colors = colors_of(level_);
+    if (colors.empty()) return;
+    const SplitMesh& split = split_;
+    const auto color = [&split, &colors, linear = linear_from_srgb()](std::size_t i) {
+      const auto& c = colors[split.vertex[i]];
+      return std::array<std::uint8_t, 4>{linear[c[0]], linear[c[1]], linear[c[2]], c[3]};
+    };
+    attributes_["COLOR_0"] = document_.add_accessor(split.vertex.size(), "VEC4", kByte, kVertices, color);
+    document_.json()["accessors"].back()["normalized"] = true;
+  }
+
+  void add_branches(const MeshAttributes& a) {
+    const SplitMesh& split = split_;
+    const auto add_floats = [&](const char* name, const std::vector<float>& values) {
+      if (!values.empty()) add(name, "SCALAR", [&split, &values](std::size_t i) { return values[split.vertex[i]]; });
+    };
+    if (!a.branch.empty()) {
+      const auto branch = [&split, &a](std::size_t i) { return a.branch[split.vertex[i]]; };
+      add("_BRANCH", "SCALAR", [branch](std::size_t i) { return static_cast<float>(branch(i)); });
+      add("_PARENT", "SCALAR", [branch, &a](std::size_t i) { return static_cast<float>(a.branch_info(branch(i)).parent); });
+      add("_ORDER", "SCALAR", [&split, &a](std::size_t i) { return static_cast<float>(a.order[split.vertex[i]]); });
+      add("_PIVOT", "VEC3", [branch, &a](std::size_t i) { return y_up(glm::vec3(a.branch_info(branch(i)).pivot)); });
+      add("_AXIS", "VEC3", [branch, &a](std::size_t i) { return y_up(glm::vec3(a.branch_info(branch(i)).axis)); });
+    }
+    add_floats("_RADIUS", a.radius);
+    add_floats("_ARC_LENGTH", a.arc_length);
+    add_floats("_RIDGE", a.ridge);
+    add_floats("_AO", a.occlusion);
+  }
+
+  const MeshLevel& level_;
+  const SplitMesh& split_;
+  Document& document_;
+  Json attributes_;
+};
+
+/// The triangles of each material, in the mesh's order.
+std::vector<std::vector<std::uint32_t>> by_material(const MeshLevel& level, std::size_t materials) {
+  std::vector<std::vector<std::uint32_t>> triangles(materials);
+  const bool known = level.attributes && !level.attributes->triangle_order.empty();
+  for (std::uint32_t t = 0; t < level.mesh->triangles.size(); ++t)
+    triangles[known ? std::min<std::size_t>(level.attributes->triangle_order[t], materials - 1) : 0].push_back(t);
+  return triangles;
+}
+
+Json add_mesh(const MeshLevel& level, const SplitMesh& split, std::size_t materials, std::string name, Document& document) {
+  const Json attributes = LevelWriter(level, split, document).attributes();
+  Json primitives = Json::array();
+  const auto triangles = by_material(level, materials);
+  for (std::size_t m = 0; m < materials; ++m) {
+    if (triangles[m].empty()) continue;
+    const std::size_t view = document.add_view(12 * triangles[m].size(), kIndices, [list = triangles[m], &split](ByteSink& sink) {
+      for (const std::uint32_t t : list) sink.put(split.triangles[t]);
+    });
+    const std::size_t indices = document.add(
+        "accessors", {{"bufferView", view}, {"componentType", kUnsignedInt}, {"count", 3 * triangles[m].size()}, {"type", "SCALAR"}});
+    primitives.push_back({{"attributes", attributes}, {"indices", indices}, {"material", m}});
+  }
+  return {{"name", std::move(name)}, {"primitives", std::move(primitives)}};
 }
 
 }  // namespace
 
-bool write_glb(const Mesh& mesh, std::ostream& out) {
-  const std::uint64_t bytes = std::uint64_t{28} * mesh.positions.size() + std::uint64_t{12} * mesh.triangles.size();
-  if (bytes > 0xfff00000ull) throw std::runtime_error("a .glb file holds at most 4 GiB; use .ply or coarser cells");
-  tinygltf::Model model;
-  model.asset.version = "2.0";
-  model.asset.generator = "Cambium";
-  tinygltf::Scene scene;
-  if (!mesh.triangles.empty()) {   // glTF has no empty buffers: an empty mesh is an empty scene
-    add_mesh(mesh, model);
-    scene.nodes.push_back(0);
+bool write_glb(const MeshFile& file, std::ostream& out) {
+  Document document;
+  std::vector<const MeshLevel*> levels;   // glTF has no empty buffers: an empty mesh is left out, and a file of such an empty scene
+  for (const MeshLevel& level : file.levels)
+    if (!level.mesh->triangles.empty()) levels.push_back(&level);
+  if (levels.empty()) return document.write(out);
+
+  const std::vector<MeshMaterial> materials = file.materials.empty() ? std::vector<MeshMaterial>(1) : file.materials;
+  add_materials(materials, document);
+  std::vector<SplitMesh> splits;
+  splits.reserve(levels.size());
+  Json others = Json::array(), coverage = Json::array();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    splits.push_back(split_vertices(*levels[i]->mesh, levels[i]->attributes));
+    const std::string name = levels.size() == 1 ? "tree" : "tree LOD" + std::to_string(i);
+    const std::size_t mesh = document.add("meshes", add_mesh(*levels[i], splits[i], materials.size(), name, document));
+    const std::size_t node = document.add("nodes", {{"name", name}, {"mesh", mesh}});
+    if (i > 0) others.push_back(node);
+    coverage.push_back(levels[i]->screen_coverage);
   }
-  model.scenes.push_back(scene);
-  model.defaultScene = 0;
-  return tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true);
+  document.json()["scenes"][0]["nodes"] = {0};
+  if (levels.size() > 1) {
+    document.json()["extensionsUsed"] = {"MSFT_lod"};
+    document.json()["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = others;
+    document.json()["nodes"][0]["extras"]["MSFT_screencoverage"] = coverage;
+  }
+  return document.write(out);
 }
 
 }  // namespace cambium

@@ -6,9 +6,7 @@
 #include <OpenMesh/Core/System/omstream.hh>
 
 // The writers register themselves when these are included.
-#include <OpenMesh/Core/IO/writer/OBJWriter.hh>
 #include <OpenMesh/Core/IO/writer/OFFWriter.hh>
-#include <OpenMesh/Core/IO/writer/PLYWriter.hh>
 #include <OpenMesh/Core/IO/writer/STLWriter.hh>
 
 namespace cambium {
@@ -22,7 +20,7 @@ using OpenMesh::VertexHandle;
 // Serves a Mesh straight to OpenMesh's writers: no half-edge structure is built for data that only passes through.
 class MeshExporter final : public OpenMesh::IO::BaseExporter {
  public:
-  MeshExporter(const Mesh& mesh, UpAxis up) : mesh_(mesh), up_(up) {}
+  MeshExporter(const MeshLevel& level, UpAxis up) : mesh_(*level.mesh), colors_(colors_of(level)), up_(up) {}
 
   OpenMesh::Vec3f point(VertexHandle v) const override {
     const OpenMesh::Vec3d p = pointd(v);
@@ -43,27 +41,27 @@ class MeshExporter final : public OpenMesh::IO::BaseExporter {
   }
   bool is_normal_double() const override { return false; }
   OpenMesh::Vec3uc color(VertexHandle v) const override {
-    const auto& c = mesh_.colors[v.idx()];
+    const auto& c = colors_[v.idx()];
     return {c[0], c[1], c[2]};
   }
   OpenMesh::Vec4uc colorA(VertexHandle v) const override {
-    const auto& c = mesh_.colors[v.idx()];
+    const auto& c = colors_[v.idx()];
     return {c[0], c[1], c[2], c[3]};
   }
   OpenMesh::Vec3ui colori(VertexHandle v) const override {
-    const auto& c = mesh_.colors[v.idx()];
+    const auto& c = colors_[v.idx()];
     return {c[0], c[1], c[2]};
   }
   OpenMesh::Vec4ui colorAi(VertexHandle v) const override {
-    const auto& c = mesh_.colors[v.idx()];
+    const auto& c = colors_[v.idx()];
     return {c[0], c[1], c[2], c[3]};
   }
   OpenMesh::Vec3f colorf(VertexHandle v) const override {
-    const auto& c = mesh_.colors[v.idx()];
+    const auto& c = colors_[v.idx()];
     return {c[0] / 255.0f, c[1] / 255.0f, c[2] / 255.0f};
   }
   OpenMesh::Vec4f colorAf(VertexHandle v) const override {
-    const auto& c = mesh_.colors[v.idx()];
+    const auto& c = colors_[v.idx()];
     return {c[0] / 255.0f, c[1] / 255.0f, c[2] / 255.0f, c[3] / 255.0f};
   }
   unsigned int get_vhandles(FaceHandle f, std::vector<VertexHandle>& out) const override {
@@ -83,13 +81,13 @@ class MeshExporter final : public OpenMesh::IO::BaseExporter {
     const double length = glm::length(n);
     return length > 0 ? OpenMesh::Vec3d(n.x / length, n.y / length, n.z / length) : OpenMesh::Vec3d(0, 0, 0);
   }
-  const OpenMesh::BaseKernel* kernel() override { return &no_properties_; }   // the PLY writer looks for custom ones
+  const OpenMesh::BaseKernel* kernel() override { return &no_properties_; }
   size_t n_vertices() const override { return mesh_.positions.size(); }
   size_t n_faces() const override { return mesh_.triangles.size(); }
   size_t n_edges() const override { return mesh_.triangles.size() * 3 / 2; }
   bool is_triangle_mesh() const override { return true; }
   bool has_vertex_normals() const override { return !mesh_.normals.empty(); }
-  bool has_vertex_colors() const override { return !mesh_.colors.empty(); }
+  bool has_vertex_colors() const override { return !colors_.empty(); }
   bool has_face_normals() const override { return true; }
 
   // What a triangle soup with vertex attributes does not have; the has_... above tell the writers not to ask.
@@ -121,6 +119,7 @@ class MeshExporter final : public OpenMesh::IO::BaseExporter {
 
  private:
   const Mesh& mesh_;
+  const std::vector<std::array<std::uint8_t, 4>>& colors_;
   UpAxis up_;
   OpenMesh::BaseKernel no_properties_;
 };
@@ -148,15 +147,16 @@ class Silence {
 
 }  // namespace
 
-bool write_with_openmesh(const Mesh& mesh, std::ostream& out, const std::string& extension, UpAxis up) {
+bool write_with_openmesh(const MeshLevel& level, std::ostream& out, const std::string& extension, UpAxis up) {
   using OpenMesh::IO::Options;
   Options options;
-  if (extension == "ply" || extension == "stl") options += Options::Binary;
-  if (extension != "stl") {
-    if (!mesh.normals.empty()) options += Options::VertexNormal;
-    if (!mesh.colors.empty() && extension != "obj") options += Options::VertexColor;   // its OBJ writer has none
+  if (extension == "stl") {
+    options += Options::Binary;
+  } else {
+    if (!level.mesh->normals.empty()) options += Options::VertexNormal;
+    if (!colors_of(level).empty()) options += Options::VertexColor;
   }
-  MeshExporter exporter(mesh, up);
+  MeshExporter exporter(level, up);
   const Silence silence;
   constexpr std::streamsize kDigits = 9;   // tells neighbouring floats apart: twigs 30 m from the origin keep their shape
   return OpenMesh::IO::IOManager().write(out, extension, exporter, options, kDigits);

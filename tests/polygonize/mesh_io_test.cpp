@@ -132,11 +132,12 @@ TEST(MeshIo, GlbHoldsYUpFloatsLinearColoursAndIndices) {
   EXPECT_NEAR(read<float>(bytes, offset(position) + 8), 20, 1e-5);
   EXPECT_NEAR(json["accessors"][position]["max"][1].get<double>(), 10.001, 1e-5);
   EXPECT_NEAR(json["accessors"][position]["min"][2].get<double>(), 19.999, 1e-5);
+  // Vertices stand in the order of their first use: 0, 2, 1, 3.
   EXPECT_EQ(read<float>(bytes, offset(normal) + 3 * 12 + 4), 1);   // z became y
   EXPECT_EQ(read<std::uint8_t>(bytes, offset(color)), 255);
-  EXPECT_EQ(read<std::uint8_t>(bytes, offset(color) + 5), 55);     // sRGB 128 in linear light
+  EXPECT_EQ(read<std::uint8_t>(bytes, offset(color) + 9), 55);     // sRGB 128 in linear light
   EXPECT_TRUE(json["accessors"][color]["normalized"].get<bool>());
-  EXPECT_EQ(read<std::uint32_t>(bytes, offset(indices) + 4), 2u);
+  EXPECT_EQ(read<std::uint32_t>(bytes, offset(indices) + 4), 1u);
   EXPECT_EQ(json["accessors"][indices]["count"], 12);
   EXPECT_EQ(json["bufferViews"][json["accessors"][indices]["bufferView"].get<int>()]["target"], 34963);
   EXPECT_EQ(json["bufferViews"][json["accessors"][position]["bufferView"].get<int>()]["target"], 34962);
