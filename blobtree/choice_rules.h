@@ -124,7 +124,7 @@ class NotingRules {
         second = i;
       }
     }
-    if (at(second) >= kIso) return first | Choices::kBothInside;
+    if (at(second) >= kIso + Choices::kHardlyInside) return first | Choices::kBothInside;
     return meeting<double>(at(first), at(second), ContactShape<double>(blend.width, blend.lip)).first_leads ? first : second;
   }
 

@@ -87,7 +87,9 @@ ChoiceEvaluator::Touching ChoiceEvaluator::touching(const PrunedField& field, st
   const auto look_at = [&](std::uint32_t first, std::uint32_t count, std::uint32_t n) {
     const std::uint32_t* known = nullptr;
     bool differ = false;
-    const auto of = [&](const Choices& side) { return side.winners[first] == Choices::kDoesNotMatter ? nullptr : &side.winners[first]; };
+    const auto of = [&](const Choices& side) {
+      return side.winners[first] == Choices::kDoesNotMatter ? nullptr : &side.winners[first];
+    };
     for (const Choices& side : sides) {
       const std::uint32_t* const own = of(side);
       if (!own) continue;

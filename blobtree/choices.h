@@ -14,8 +14,8 @@ namespace cambium {
 /// What every union, intersection, difference, contact and fork of a tape takes at one point, in tape order.
 ///   union, intersection   the child
 ///   difference            0 the first, k the k-th active one taken away, or the cap 2 kIso after them
-///   contact               the child that leads: the others push it. It is the one with the largest value, but for lips near 4 where
-///                         the next one may rise above it. Of three or more children also which of the others pushes
+///   contact               the child that leads: the others push it. It is the one with the largest value, but for lips near 4
+///                         where the next one may rise above it. Of three or more children also which of the others pushes
 ///   fork                  the same of its laterals, then whether the axis (0) or the laterals (1) lead
 /// An operator that a child is left out of because it is 0 has that child after its active ones.
 /// Where the runner-up of a contact makes no difference (it is beyond the contact's width, say) there still is one, and so with
@@ -28,8 +28,10 @@ struct Choices {
   /// Of an operator below a child that was not taken.
   static constexpr std::uint32_t kDoesNotMatter = 0xffffffffu;
   /// Added to the leader of a contact where the next child is inside its own solid too: there nothing pushes. Such points are
-  /// inside wherever the contact by itself makes the surface.
+  /// inside wherever the contact by itself makes the surface. By no more than kHardlyInside it is taken for outside: points found
+  /// on the surface in floating point, where two sheets close up, are then of one of the two.
   static constexpr std::uint32_t kBothInside = 0x80000000u;
+  static constexpr double kHardlyInside = 1e-6;
 };
 
 /// Scratch, one per thread; the Evaluator's fields and the same values to the last bit.
@@ -48,8 +50,8 @@ class ChoiceEvaluator {
   double choose(const PrunedField& field, const Vec3& p, Choices& out);
   /// The field as it would be if every operator took the given winners: smooth across the crease. A contact is
   /// leader + D(the other) everywhere, or the leader alone where both were inside.
-  /// Where `choices` are those of p it is the field, but for rounding. Errors: std::invalid_argument for choices that cannot be
-  /// this tape's. Cost: that of Evaluator::sample().
+  /// Where `choices` are those of p it is the field, but for rounding and kHardlyInside. Errors: std::invalid_argument for
+  /// choices that cannot be this tape's. Cost: that of Evaluator::sample().
   Sample sample_as(const PrunedField& field, const Choices& choices, const Vec3& p);
 
   /// The contacts (those of forks too) in which some sides differ, and the children that these sides name.

@@ -55,8 +55,8 @@ struct PlainRules {
   }
   /// has_axis: else the axis is not active, and 0.
   template <class Value>
-  Value fork(const Instruction&, bool has_axis, const Value& axis, const Value* f, const Value* weights, std::size_t n, bool with_zero,
-             const CompiledBlend& blend) const {
+  Value fork(const Instruction&, bool has_axis, const Value& axis, const Value* f, const Value* weights, std::size_t n,
+             bool with_zero, const CompiledBlend& blend) const {
     (void)has_axis;
     return fork_of(axis, f, weights, n, with_zero, blend.width, blend.lip);
   }
@@ -107,7 +107,8 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
         scratch.weights.clear();
         for (std::size_t k = has_axis; k < n; ++k)
           scratch.weights.push_back(policy.lateral_weight(view.tree.lateral_of(node, slots[in.first + k] - 1), in));
-        f[0] = rules.fork(in, has_axis, has_axis ? f[0] : Value{}, f + has_axis, scratch.weights.data(), n - has_axis, with_zero, blend);
+        f[0] = rules.fork(in, has_axis, has_axis ? f[0] : Value{}, f + has_axis, scratch.weights.data(), n - has_axis, with_zero,
+                          blend);
         break;
       }
       case Op::kPrimitive:

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 
@@ -43,7 +44,8 @@ Made axis_and_two_laterals() {
   const NodeId left = b.add(Cone{{-0.08, 0, 0}, {-0.6, 0, 0.5}, 0.08, 0.07, 1});
   const NodeId right = b.add(Cone{{0.08, 0, 0}, {0.6, 0, 0.5}, 0.08, 0.07, 1});
   const Vec3 up = glm::normalize(Vec3(0.5, 0, 0.6));
-  return Made(b.build(b.add(Fork{axis, {{left, {0, 0, 0}, {-up.x, 0, up.z}, 0.05, 0.4}, {right, {0, 0, 0}, up, 0.05, 0.4}}, 0.4, 1})));
+  return Made(b.build(b.add(Fork{axis, {{left, {0, 0, 0}, {-up.x, 0, up.z}, 0.05, 0.4},
+                                        {right, {0, 0, 0}, up, 0.05, 0.4}}, 0.4, 1})));
 }
 
 /// Every operator that chooses, over primitives without kinks, some of them below warps and under each other.
@@ -56,7 +58,8 @@ Made all_operators() {
   const NodeId pair = b.add(Contact{{cut, ball(0.3, 0.4, 0)}, 0.45, 1.5});
   const NodeId three = b.add(Contact{{ball(0, 0.5, 0.2), pair, ball(0.2, 0.6, 0.3)}, 0.5, 3});
   const NodeId bent = b.add(Twist{{0.1, 0, 0}, {0, 0, 1}, 0.7, b.add(Contact{{ball(0.6, 0, 0), ball(0.6, 0.3, 0.1)}, 0.5, 0})});
-  const NodeId fork = b.add(Fork{b.add(Sum{{united, common}}), {{three, {0.2, 0.3, 0.1}, {0, 1, 0}, 0.3, 0.4}, {bent, {0.4, 0, 0}, {1, 0, 0}, 0.2, 0.3}}, 0.5, 2});
+  const Lateral first{three, {0.2, 0.3, 0.1}, {0, 1, 0}, 0.3, 0.4}, second{bent, {0.4, 0, 0}, {1, 0, 0}, 0.2, 0.3};
+  const NodeId fork = b.add(Fork{b.add(Sum{{united, common}}), {first, second}, 0.5, 2});
   return Made(b.build(b.add(Union{{fork, b.add(ScaleField{0.9, ball(0.9, 0.2, 0)})}})));
 }
 
@@ -92,6 +95,9 @@ TEST(Choices, OfAContactAreItsLeaderAndOfThreeTheOneThatPushes) {
   EXPECT_EQ(chosen(two.whole, {0, 0.2, 0}), Winners{0});
   EXPECT_EQ(chosen(two.whole, {0.4, 0.2, 0}), Winners{1});
   EXPECT_EQ(chosen(two.whole, {0.151, 0, 0}), Winners{1u | kBothInside});
+  const double surface = std::sqrt(0.2 * 0.2 - 0.15 * 0.15);   // where both are at it; a hair inside counts as outside
+  EXPECT_EQ(chosen(two.whole, {0.15 - 1e-9, surface - 1e-8, 0}), Winners{0});
+  EXPECT_EQ(chosen(two.whole, {0.15 - 1e-9, surface - 1e-5, 0}), Winners{0u | kBothInside});
   const Made three = row(3, [](auto ids) { return Contact{ids, 0.5, 0}; });
   EXPECT_EQ(chosen(three.whole, {0.29, 0.2, 0}), (Winners{1, 0}));
   EXPECT_EQ(chosen(three.whole, {0.31, 0.2, 0}), (Winners{1, 2}));
