@@ -55,11 +55,11 @@ class CreaseSearch {
     // exception, and the sides by themselves mislead only to where no surface is.
     const bool touch = !touching_.children.empty();
     if (touch && face_apart(start)) {
-      if (const auto found = where_children_meet(start)) return found;
-      return where_sides_meet(start);
+      const auto found = where_children_meet(start);
+      return found || outside_ ? found : where_sides_meet(start);
     }
     const auto found = where_sides_meet(start);
-    if (!touch || (found && !found->cusp)) return found;
+    if (!touch || outside_ || (found && !found->cusp)) return found;
     const auto closer = where_children_meet(found ? found->position : start);   // sheets that touch do not tell well where
     return closer ? closer : found;
   }
@@ -154,7 +154,8 @@ class CreaseSearch {
   std::optional<CreasePoint> where_children_meet(const Vec3& start) {
     const std::optional<Met> touching = children_meet(start, kIso);
     if (!touching || together_ < kIso - 1e-6) return std::nullopt;
-    const std::optional<CreasePoint> cusp = pure_contact() ? crease_at(*touching) : std::nullopt;
+    const bool pure = pure_contact();
+    const std::optional<CreasePoint> cusp = pure ? crease_at(*touching) : std::nullopt;
     double inside = kIso, outside = kIso - 1e-4;
     std::optional<Met> met = touching;
     for (;;) {
@@ -165,15 +166,17 @@ class CreaseSearch {
       outside = kIso - 3 * (kIso - outside);
       if (outside < 0.1) return std::nullopt;
     }
-    if (cusp && inside == kIso) return cusp;   // else a pocket of no width: the lip is above 2
+    if (pure && inside == kIso) return cusp;   // else it was a pocket of no width: the lip is above 2
+    outside_.reset();
     for (int turn = 0; turn < 40; ++turn) {
+      if (turn == 0 || turn == 8) {   // close enough for the sides themselves, if they have an angle
+        const auto found = where_sides_meet(met->point);
+        if (found || outside_) return found;
+      }
       const double level = 0.5 * (inside + outside);
       met = children_meet(met->point, level);
       if (!met) return std::nullopt;
       (together_ > kIso ? inside : outside) = level;
-      if (turn == 8) {   // close enough for the sides themselves, if they have an angle
-        if (const auto found = where_sides_meet(met->point)) return found;
-      }
     }
     return crease_at(*met);
   }
@@ -186,10 +189,6 @@ class CreaseSearch {
   }
 
   std::optional<CreasePoint> crease_at(const Met& met) {
-    if (!within_.padded(1e-9 * size_).contains(met.point)) {
-      outside_ = met.point;
-      return std::nullopt;
-    }
     CreasePoint found;
     found.position = glm::clamp(met.point, within_.lo, within_.hi);
     double slope = 0;
@@ -212,6 +211,10 @@ class CreaseSearch {
     const double nearly = (agree ? 1e-3 : 1e-10) * size_ + 8 * rounding_;
     if (found.miss > nearly && sides_.size() <= 3) return std::nullopt;
     if (found.miss <= nearly && std::abs(evaluator_.choose(field_, met.point, own_) - kIso) > nearly * slope) return std::nullopt;
+    if (!within_.padded(1e-9 * size_).contains(met.point)) {
+      outside_ = met.point;
+      return std::nullopt;
+    }
     found.kind = agree ? CreaseKind::kNone : met.rank >= 3 ? CreaseKind::kCorner : CreaseKind::kCurve;
     return found;
   }
