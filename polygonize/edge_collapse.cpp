@@ -14,10 +14,25 @@
 namespace cambium {
 namespace {
 
-using Halfedges = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+// The decimater asks its mesh whether an edge may be collapsed: before it asks what that costs, and once more when its turn has
+// come. OpenMesh's own answer makes and names a property each time, which takes longer than all the rest together.
+class Halfedges : public OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble> {
+ public:
+  class Judge {
+   public:
+    virtual ~Judge() = default;
+    virtual bool allows(HalfedgeHandle h) = 0;
+  };
+  void ask(Judge* judge) { judge_ = judge; }
+  bool is_collapse_ok(HalfedgeHandle h) { return judge_->allows(h); }
+
+ private:
+  Judge* judge_ = nullptr;
+};
 using Point = Halfedges::Point;
-using VertexHandle = Halfedges::VertexHandle;
-using HalfedgeHandle = Halfedges::HalfedgeHandle;
 
 struct Cancelled {};
 
@@ -44,7 +59,7 @@ double height_of(const Point& a, const Point& b, const Point& c) {
 }
 
 // Quadric errors of the collapses that the rule allows.
-class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges> {
+class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>, public Halfedges::Judge {
  public:
   using Self = GuardedQuadrics;
   using Handle = OpenMesh::Decimater::ModHandleT<Self>;
@@ -56,24 +71,28 @@ class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>
     normals_ = &normals;
     run_ = &run;
     into_ = &into;
+    ring_.assign(into.size(), 0);
   }
   void set_rule(const ShapeRule& rule) {
     rule_ = &rule;
     candidate_ = VertexHandle();
   }
 
-  float collapse_priority(const CollapseInfo& ci) override {
+  // The edges around a vertex come one after the other, and the best is taken: one that is worse need not be looked at.
+  bool allows(HalfedgeHandle h) override {
     if (++looked_at_ % kPollEvery == 0 && run_->cancelled()) throw Cancelled{};
-    // The decimater asks for the edges around a vertex one after the other and takes the best: a worse one need not be looked at.
-    if (ci.v0 != candidate_) {
-      candidate_ = ci.v0;
-      best_ = std::numeric_limits<float>::max();
-    }
+    if (mesh().status(mesh().edge_handle(h)).deleted()) return false;
+    const CollapseInfo ci(mesh(), h);
+    if (mesh().status(ci.v0).deleted() || mesh().status(ci.v1).deleted()) return false;
+    if (ci.v0 != candidate_) begin_candidate(ci.v0);
     const double length2 = (ci.p1 - ci.p0).sqrnorm();
     const float error = std::max(Quadrics::collapse_priority(ci), 0.0f) + static_cast<float>(kLengthWeight * length2 * length2);
-    if (!(error < best_) || !keeps_creases(ci) || !keeps_shape(ci)) return ILLEGAL_COLLAPSE;
-    return best_ = error;
+    if (!(error <= best_) || !keeps_topology(ci) || !keeps_creases(ci) || !keeps_shape(ci)) return false;
+    best_ = error;
+    return true;
   }
+
+  float collapse_priority(const CollapseInfo&) override { return best_; }   // always after allows()
 
   void preprocess_collapse(const CollapseInfo& ci) override {
     crease_left_ = crease(ci.vlv1) || crease(ci.v0vl);
@@ -96,6 +115,22 @@ class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>
   }
   const Halfedges& mesh() const { return const_cast<GuardedQuadrics*>(this)->Quadrics::mesh(); }
   Halfedges& mesh() { return Quadrics::mesh(); }
+
+  void begin_candidate(VertexHandle v) {
+    candidate_ = v;
+    best_ = std::numeric_limits<float>::max();
+    ++stamp_;
+    for (const auto neighbour : mesh().vv_range(v)) ring_[static_cast<std::size_t>(neighbour.idx())] = stamp_;
+  }
+
+  // The link condition of a closed surface: the two ends have no neighbours in common but the corners of the two triangles.
+  bool keeps_topology(const CollapseInfo& ci) {
+    if (ci.vl == ci.vr) return false;
+    for (const auto v : mesh().vv_range(ci.v1)) {
+      if (ring_[static_cast<std::size_t>(v.idx())] == stamp_ && v != ci.vl && v != ci.vr) return false;
+    }
+    return true;
+  }
 
   // A crease that runs around one triangle may not close up.
   bool keeps_creases(const CollapseInfo& ci) const {
@@ -165,8 +200,10 @@ class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>
   std::vector<std::uint32_t>* into_ = nullptr;
   const ShapeRule* rule_ = nullptr;
   std::size_t looked_at_ = 0;
-  VertexHandle candidate_;
-  float best_ = 0;
+  VertexHandle candidate_;                 // whose edges are being looked at,
+  float best_ = 0;                         // the least error of them so far,
+  std::vector<std::uint32_t> ring_;        // and by vertex: stamp_ if it is a neighbour of it
+  std::uint32_t stamp_ = 0;
   bool crease_left_ = false, crease_right_ = false;
 };
 
@@ -278,6 +315,7 @@ std::optional<Collapsed> collapse_edges(const Mesh& mesh, std::size_t triangles,
     decimater.add(quadrics);
     decimater.module(quadrics).prepare(mesh.normals, run, into);
     decimater.initialize();
+    halfedges.ask(&decimater.module(quadrics));
     mark_creases(mesh, locked, halfedges);
     Watch watch(run, (mesh.triangles.size() - std::min(triangles, mesh.triangles.size())) / 2 + 1);
     decimater.set_observer(&watch);
