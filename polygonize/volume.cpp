@@ -2,6 +2,7 @@
 
 #include "blobtree/input_error.h"
 #include "polygonize/lattice.h"
+#include "polygonize/narrow_band.h"
 #include "polygonize/volume_samples.h"
 
 #include <openvdb/openvdb.h>
@@ -13,8 +14,10 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -30,16 +33,18 @@ void tell(const RunOptions& run, const char* stage, double fraction) {
   if (run.progress) run.progress(stage, fraction);
 }
 
-Grid::Ptr field_grid(const std::vector<FieldBlock>& blocks) {
+// The blocks are given back one by one as leaves take their place.
+Grid::Ptr field_grid(std::vector<std::unique_ptr<FieldBlock>> blocks) {
   Grid::Ptr grid = Grid::create(0.0f);
-  for (const FieldBlock& block : blocks) {
-    const openvdb::Coord first(block.first[0], block.first[1], block.first[2]);
+  for (auto& block : blocks) {
+    const openvdb::Coord first(block->first[0], block->first[1], block->first[2]);
     Leaf* leaf = nullptr;
     for (int i = 0; i < 512; ++i) {
-      if (!(block.values[i] > 0)) continue;
+      if (!(block->values[i] > 0)) continue;
       if (!leaf) leaf = grid->tree().touchLeaf(first);
-      leaf->setValueOn(static_cast<openvdb::Index>(i), block.values[i]);   // both count z fastest
+      leaf->setValueOn(static_cast<openvdb::Index>(i), block->values[i]);   // both count z fastest
     }
+    block.reset();
   }
   grid->setName("field");
   grid->setGridClass(openvdb::GRID_UNKNOWN);
@@ -61,40 +66,49 @@ void trim_band(Grid& grid, float width) {
   openvdb::tools::pruneLevelSet(grid.tree());
 }
 
-Grid::Ptr level_set(const std::vector<NearVoxel>& voxels, double voxel, double half_width, const RunOptions& run) {
-  const float width = static_cast<float>(half_width * voxel);
-  Grid::Ptr grid = Grid::create(width);
-  grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+// Wider bands than are measured go on from there by fast sweeping.
+Grid::Ptr level_set(const Field& field, const VolumeOptions& options, const RunOptions& run) {
+  const double measured = std::min(options.half_width, kMostBandVoxels);
+  auto leaves = narrow_band(field, options.voxel, measured, run);
+  if (!leaves) return nullptr;
+  const float band = static_cast<float>((leaves->empty() ? options.half_width : measured) * options.voxel);
+  Grid::Ptr grid = Grid::create(band);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(options.voxel));
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  auto accessor = grid->getAccessor();
-  for (const NearVoxel& near : voxels) {
-    accessor.setValueOn(openvdb::Coord(near.index[0], near.index[1], near.index[2]), near.distance);
-  }
-  if (!voxels.empty()) {
-    openvdb::tools::signedFloodFill(grid->tree());   // the sweep reads the signs of inactive neighbours
-    tell(run, "measuring distances", 0.2);
-    if (run.cancelled()) return nullptr;
-    grid = openvdb::tools::sdfToSdf(*grid, 0.0f, 1);
-    if (run.cancelled()) return nullptr;
-    tell(run, "measuring distances", 0.5);
-    grid = openvdb::tools::dilateSdf(*grid, static_cast<int>(std::ceil(half_width)), openvdb::tools::NN_FACE_EDGE_VERTEX, 1);
-    if (run.cancelled()) return nullptr;
-    trim_band(*grid, width);
-  }
-  tell(run, "measuring distances", 1.0);
   grid->setName("surface");
-  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  for (auto& from : *leaves) {
+    auto* leaf = new Leaf(openvdb::Coord(from->first[0], from->first[1], from->first[2]), band, false);
+    for (int i = 0; i < 512; ++i) {
+      const auto at = static_cast<openvdb::Index>(i);
+      leaf->setValueOnly(at, from->distances[i]);
+      if (from->active[i]) leaf->setActiveState(at, true);
+    }
+    grid->tree().addLeaf(leaf);
+    from.reset();
+  }
+  if (run.cancelled()) return nullptr;
+  if (leaves->empty()) return grid;
+  // Leaves know all their signs; what lies between them takes theirs.
+  openvdb::tools::signedFloodFillWithValues(grid->tree(), band, band, true, 1, 1);
+  if (options.half_width > measured) {
+    tell(run, "widening the band", 0);
+    const int more = static_cast<int>(std::ceil(options.half_width - measured));
+    grid = openvdb::tools::dilateSdf(*grid, more, openvdb::tools::NN_FACE_EDGE_VERTEX, 1);
+    if (run.cancelled()) return nullptr;
+    trim_band(*grid, static_cast<float>(options.half_width * options.voxel));
+    grid->setName("surface");
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    tell(run, "widening the band", 1);
+  }
   return grid;
 }
 
 Grid::Ptr make_grid(const Field& field, const VolumeOptions& options, const RunOptions& run) {
   if (options.kind == VolumeKind::kField) {
-    const auto blocks = sample_field(field, options.voxel, run);
-    return blocks ? field_grid(*blocks) : nullptr;
+    auto blocks = sample_field(field, options.voxel, run);
+    return blocks ? field_grid(std::move(*blocks)) : nullptr;
   }
-  const auto voxels = sample_near_surface(field, options.voxel, run);
-  if (!voxels) return nullptr;
-  Grid::Ptr grid = level_set(*voxels, options.voxel, options.half_width, run);
+  Grid::Ptr grid = level_set(field, options, run);
   if (!grid || options.kind == VolumeKind::kSdf) return grid;
   openvdb::tools::sdfToFogVolume(*grid);
   grid->setName("density");

@@ -1,11 +1,13 @@
-// Samples of a field at the voxels of a volume, only where it has support or a surface. Knows nothing of OpenVDB.
+// Samples of a field at the voxels of a volume, where it has support. Knows nothing of OpenVDB.
 #pragma once
 
 #include "blobtree/field.h"
 #include "blobtree/run_options.h"
+#include "polygonize/lattice.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,15 +21,9 @@ struct FieldBlock {
 
 /// The field in every block where it can be above 0, in a fixed order. nullopt if cancelled. Errors: InputError for a voxel size
 /// too fine to index. Memory: proportional to the volume of the support.
-std::optional<std::vector<FieldBlock>> sample_field(const Field& field, double voxel, const RunOptions& run);
+std::optional<std::vector<std::unique_ptr<FieldBlock>>> sample_field(const Field& field, double voxel, const RunOptions& run);
 
-struct NearVoxel {
-  std::array<std::int32_t, 3> index{};
-  float distance = 0;                    ///< metres, negative inside: (c - f) / |grad f|, at most two voxels
-};
-
-/// Every corner of every cell that holds the surface; some more than once. nullopt if cancelled. Errors: as above. Memory:
-/// proportional to the surface.
-std::optional<std::vector<NearVoxel>> sample_near_surface(const Field& field, double voxel, const RunOptions& run);
+/// A lattice whose voxels can be counted by OpenVDB. Errors: InputError for a voxel too fine, or too far from the origin, for that.
+Lattice make_indexed_lattice(const Box& bounds, double voxel);
 
 }  // namespace cambium

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <numbers>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace cambium {
 namespace {
@@ -21,7 +22,8 @@ namespace fs = std::filesystem;
 
 fs::path temporary(const std::string& name) {
   return fs::temp_directory_path() /
-         (std::string("cambium_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name);
+         (std::string("cambium_") + std::to_string(getpid()) + "_" +
+          ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name);
 }
 
 VolumeReport write(const Field& field, VolumeKind kind, double voxel, const fs::path& path, int threads = 0) {
