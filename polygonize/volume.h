@@ -15,7 +15,7 @@ enum class VolumeKind { kField, kSdf, kFog };
 struct VolumeOptions {
   double voxel = 0.005;                  ///< metres
   VolumeKind kind = VolumeKind::kSdf;
-  double half_width = 3;                 ///< narrow band, voxels each side (sdf, fog)
+  double half_width = 3;                 ///< narrow band, voxels each side (sdf, fog); beyond 4 by OpenVDB's sweeping
 };
 
 struct VolumeReport {
@@ -25,7 +25,7 @@ struct VolumeReport {
 
 /// Writes one float grid named "field" (f itself, background 0), "surface" (level set, negative inside, metres) or "density"
 /// (fog volume) to exactly `path`. nullopt if cancelled (nothing is left). Errors: InputError for bad sizes, std::runtime_error
-/// naming the path when writing fails.
+/// naming the path when writing fails. Memory: proportional to the leaves. OpenVDB's writing does not poll.
 std::optional<VolumeReport> write_volume(const Field& field, const VolumeOptions& options, const std::filesystem::path& path,
                                          const RunOptions& run);
 
