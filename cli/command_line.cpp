@@ -50,7 +50,14 @@ void declare(CLI::App& app, CommandLine& line) {
   CLI::App* mesh = add_command(app, line, Command::kMesh, "mesh", "a closed triangle mesh (.obj .ply .stl .off .glb)", true);
   CLI::Option* voxel = mesh->add_option("--voxel", line.voxel, "edge of a cell, such as 2mm");
   mesh->add_option("--tolerance", line.tolerance, "largest distance from the surface, such as 0.5mm")->excludes(voxel);
-  mesh->add_option("--max-triangles", line.max_triangles, "coarsen until it holds")->check(CLI::NonNegativeNumber);
+  mesh->add_option("--max-triangles", line.max_triangles, "at most so many, such as 500k");
+  mesh->add_option("--lod", line.lod,
+                   "levels of detail, each of at most so many triangles, such as 1200k,50k,5k: all in one .glb, else a file each "
+                   "(tree_lod0.obj ...)");
+  mesh->add_flag("--verify", line.verify,
+                 "measure every level: distance from the surface both ways, topology, self-intersections; what misses the "
+                 "tolerance or is not sound is said on stderr, and the exit status stays 0");
+  mesh->add_flag("--no-ao", line.no_ao, "leave ambient occlusion out");
   mesh->add_option("--up", line.up, "y or z (glTF is always y-up)");
   CLI::App* volume = add_command(app, line, Command::kVolume, "volume", "an OpenVDB grid (.vdb)", true);
   volume->add_option("--voxel", line.voxel, "edge of a voxel, such as 5mm");
@@ -122,6 +129,7 @@ int run_parsed(const CommandLine& line, const std::atomic<bool>& cancel) {
     Job job(line, cancel);
     const Outcome outcome = run(job);
     job.progress.clear();
+    for (const std::string& warning : job.warnings) std::fprintf(stderr, "cambium: %s\n", warning.c_str());
     if (outcome == Outcome::kInterrupted) return fail(1, "cambium: interrupted");
     print_figures(job);
     if (std::fflush(stdout) != 0) return fail(1, "cambium: stdout cannot be written");

@@ -23,15 +23,16 @@ struct CommandLine {
   std::vector<std::string> overrides;        ///< of --set
   std::string points;                        ///< eval
   std::string voxel;                         ///< mesh, volume
-  std::string tolerance, up;                 ///< mesh
-  std::optional<std::size_t> max_triangles;  ///< mesh
+  std::string tolerance, max_triangles;      ///< mesh
+  std::string lod, up;                       ///< mesh
+  bool verify = false, no_ao = false;        ///< mesh
   std::string kind;                          ///< volume
   std::string size;                          ///< render
   std::optional<int> samples;                ///< render
   std::vector<std::string> aovs;             ///< render
 };
 
-/// Parses and runs; prints figures on stdout and at most one line of error on stderr.
+/// Parses and runs; prints figures on stdout, at most one line of error on stderr, and before it warnings.
 /// Returns the exit status: 0 done, 2 bad usage or input, 1 anything else.
 int run_command_line(int argc, char** argv);
 

@@ -1,13 +1,20 @@
-// mesh: a closed triangle mesh of the surface, in stages: what is asked, the field, the mesh, the file.
+// mesh: closed triangle meshes of the surface, in stages: what is asked, the field, the mesh, its levels of detail, what they
+// are worth, the files.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 
 #include "cli/commands.h"
+#include "cli/mesh_figures.h"
 #include "cli/output_file.h"
 #include "cli/units.h"
+#include "polygonize/decimate.h"
 #include "polygonize/mesh_io.h"
 #include "polygonize/polygonize.h"
+#include "polygonize/verify.h"
 #include "raytrace/bark.h"
 
 namespace cambium {
@@ -17,7 +24,7 @@ namespace {
 struct MeshRequest {
   std::string format;   ///< extension of the output, with its dot
   UpAxis up = UpAxis::kZ;
-  PolygonizeOptions polygonize;
+  MeshRecipe mesh;
 };
 
 std::uint8_t srgb_byte(double linear) {
@@ -32,9 +39,13 @@ UpAxis up_axis(const std::string& name) {
   throw InputError({"--up"}, "'" + name + "'", "y or z");
 }
 
-PolygonizeOptions mesh_options(const Job& job) {
-  PolygonizeOptions options = job.recipe.mesh;
+MeshRequest read_request(const Job& job) {
   const CommandLine& line = job.line;
+  MeshRequest request;
+  request.format = require_extension(line.output, {".obj", ".ply", ".stl", ".off", ".glb"});
+  request.up = up_axis(line.up);
+  request.mesh = job.recipe.mesh;
+  PolygonizeOptions& options = request.mesh.polygonize;
   if (!line.voxel.empty()) {
     options.voxel = parse_positive_length(line.voxel, {"--voxel"});
     options.tolerance.reset();
@@ -43,17 +54,24 @@ PolygonizeOptions mesh_options(const Job& job) {
     options.tolerance = parse_positive_length(line.tolerance, {"--tolerance"});
     options.voxel.reset();
   }
-  if (line.max_triangles) options.max_triangles = line.max_triangles;
-  if (options.max_triangles && *options.max_triangles == 0) throw InputError({"--max-triangles"}, "0", "at least 1");
-  return options;
+  if (!line.max_triangles.empty()) options.max_triangles = parse_count(line.max_triangles, {"--max-triangles"});
+  if (!line.lod.empty()) request.mesh.lod = parse_levels(line.lod, {"--lod"});
+  if (line.no_ao) request.mesh.occlusion = false;
+  return request;
 }
 
-MeshRequest read_request(const Job& job) {
-  MeshRequest request;
-  request.format = require_extension(job.line.output, {".obj", ".ply", ".stl", ".off", ".glb"});
-  request.polygonize = mesh_options(job);
-  request.up = up_axis(job.line.up);
-  return request;
+/// One for each level of formats that hold one mesh a file, made before the work.
+std::deque<OutputFile> make_outputs(const std::filesystem::path& target, const MeshRequest& request) {
+  std::deque<OutputFile> outputs;
+  const std::size_t levels = request.mesh.lod.size();
+  if (levels <= 1 || request.format == ".glb") {
+    outputs.emplace_back(target);
+    return outputs;
+  }
+  const std::string name = target.filename().string(), stem = name.substr(0, name.size() - request.format.size());
+  for (std::size_t i = 0; i < levels; ++i)
+    outputs.emplace_back(target.parent_path() / fmt::format("{}_lod{}{}", stem, i, name.substr(stem.size())));
+  return outputs;
 }
 
 void colour_with(const Bark& bark, PolygonizeOptions& options) {
@@ -63,42 +81,88 @@ void colour_with(const Bark& bark, PolygonizeOptions& options) {
   };
 }
 
+// Each stage times itself and gives nullopt when interrupted.
+
 std::optional<Polygonized> polygonize_field(Job& job, const Field& field, const PolygonizeOptions& options) {
   const StageTimer timer(job.figures, "polygonize");
   return polygonize(field, options, job.run);
 }
 
-void report_mesh(Job& job, const Field& field, const Polygonized& made) {
-  const PolygonizeReport& report = made.report;
-  job.figures.set("primitives", field.atom_count());
-  job.figures.set("triangles", made.mesh.triangles.size());
-  job.figures.set("vertices", made.mesh.positions.size());
-  job.figures.set("components", report.components);
-  job.figures.set("voxel", report.voxel);
-  job.figures.set("cells", report.cells);
-  job.figures.set("thin_primitives", report.thin_primitives);
-  job.figures.set("thin_length", report.thin_length);
-  job.figures.set("thinnest_radius", report.thinnest_radius);
-  job.figures.set("ambiguous_faces", report.ambiguous_faces);
-  job.figures.set("largest_distance", report.largest_distance);
+/// The mesh itself if no levels are asked for; else each from the one before. Takes `mesh` away.
+std::optional<std::vector<Mesh>> make_levels(Job& job, Mesh& mesh, const std::vector<std::size_t>& most) {
+  std::vector<Mesh> levels;
+  if (most.empty()) levels.push_back(std::move(mesh));
+  const StageTimer timer(job.figures, "lod");
+  for (const std::size_t triangles : most) {
+    auto level = decimate(levels.empty() ? mesh : levels.back(), {.triangles = triangles}, job.run);
+    if (!level) return std::nullopt;
+    if (levels.empty()) mesh = {};
+    levels.push_back(std::move(*level));
+  }
+  return levels;
+}
+
+std::optional<std::vector<Verification>> verify_levels(Job& job, const std::vector<Mesh>& levels, const Field& field,
+                                                       const VerifyOptions& options) {
+  const StageTimer timer(job.figures, "verify");
+  std::vector<Verification> verified;
+  for (const Mesh& level : levels) {
+    const auto verification = verify_mesh(level, field, options, job.run);
+    if (!verification) return std::nullopt;
+    verified.push_back(*verification);
+  }
+  return verified;
+}
+
+/// Down to which share of the screen's height a level is for: where the next has as many triangles to the pixel as the first one
+/// when it fills the screen.
+double screen_coverage(const std::vector<Mesh>& levels, std::size_t level) {
+  if (level + 1 == levels.size()) return 0;
+  const auto triangles = [&](std::size_t i) { return static_cast<double>(levels[i].triangles.size()); };
+  return triangles(0) > 0 ? std::sqrt(triangles(level + 1) / triangles(0)) : 0;
+}
+
+void write_levels(Job& job, const std::vector<Mesh>& levels, const MeshRequest& request, std::deque<OutputFile>& outputs) {
+  const StageTimer timer(job.figures, "write");
+  MeshFile file;
+  for (std::size_t i = 0; i < levels.size(); ++i) file.levels.push_back({&levels[i], nullptr, screen_coverage(levels, i)});
+  if (outputs.size() == 1) {
+    write_mesh(file, outputs.front().temporary(), request.format, request.up);
+    return;
+  }
+  for (std::size_t i = 0; i < levels.size() && !job.run.cancelled(); ++i) {
+    MeshFile one;
+    one.levels = {file.levels[i]};
+    write_mesh(one, outputs[i].temporary(), request.format, request.up);
+  }
 }
 
 }  // namespace
 
 Outcome run_mesh(Job& job) {
   MeshRequest request = read_request(job);
-  OutputFile output(job.line.output);
+  std::deque<OutputFile> outputs = make_outputs(job.line.output, request);
   const Bark bark(load_bark(job.recipe), job.recipe.render.seed);
-  if (request.format != ".stl") colour_with(bark, request.polygonize);  // which has no colours
+  if (request.format != ".stl") colour_with(bark, request.mesh.polygonize);  // which has no colours
   const auto field = build_field(job);
   if (!field) return Outcome::kInterrupted;
-  const auto made = polygonize_field(job, *field, request.polygonize);
+  auto made = polygonize_field(job, *field, request.mesh.polygonize);
   if (!made) return Outcome::kInterrupted;
-  report_mesh(job, *field, *made);
-  const StageTimer timer(job.figures, "write");
-  write_mesh(made->mesh, output.temporary(), request.format, request.up);
+  const auto levels = make_levels(job, made->mesh, request.mesh.lod);
+  if (!levels) return Outcome::kInterrupted;
+  job.figures.set("primitives", field->atom_count());
+  set_level_figures(job, *levels, request.mesh.lod);
+  set_polygonize_figures(job, made->report);
+  if (job.line.verify) {
+    VerifyOptions options;
+    options.tolerance = request.mesh.polygonize.tolerance.value_or(0);
+    const auto verified = verify_levels(job, *levels, *field, options);
+    if (!verified) return Outcome::kInterrupted;
+    set_verify_figures(job, *verified, options.tolerance);
+  }
+  write_levels(job, *levels, request, outputs);
   if (job.run.cancelled()) return Outcome::kInterrupted;
-  output.commit();
+  for (OutputFile& output : outputs) output.commit();
   return Outcome::kDone;
 }
 

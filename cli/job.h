@@ -4,6 +4,8 @@
 #include <atomic>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "blobtree/field.h"
 #include "cli/command_line.h"
@@ -30,6 +32,7 @@ class Job {
   Figures figures;
   ProgressLine progress;
   RunOptions run;
+  std::vector<std::string> warnings;             ///< lines for stderr once the work is done: what was made is not all it should be
 };
 
 // Each stage times itself in job.figures and returns nullopt when interrupted. Errors: InputError, also where the source

@@ -1,5 +1,6 @@
 #include "cli/recipe.h"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <tuple>
@@ -209,17 +210,29 @@ const KeyRule<RenderOptions> kRenderKeys[] = {
 };
 
 // ---- [mesh], [volume] ------------------------------------------------------------------------------------------
-const KeyRule<PolygonizeOptions> kMeshKeys[] = {
-    {"voxel", [](const RecipeValue& v, PolygonizeOptions& m) { m.voxel = v.positive_length(); }},
+void read_levels(const RecipeValue& v, MeshRecipe& mesh) {
+  mesh.lod.clear();
+  for (const RecipeValue& level : v.elements()) {
+    const std::size_t triangles = level.is_text() ? parse_count(level.text(), level.location())
+                                                  : static_cast<std::size_t>(level.integer(1, kLargestInteger));
+    if (!mesh.lod.empty() && triangles >= mesh.lod.back()) level.refuse("fewer triangles than the level before");
+    mesh.lod.push_back(triangles);
+  }
+}
+
+const KeyRule<MeshRecipe> kMeshKeys[] = {
+    {"voxel", [](const RecipeValue& v, MeshRecipe& m) { m.polygonize.voxel = v.positive_length(); }},
     {"tolerance",
-     [](const RecipeValue& v, PolygonizeOptions& m) {
-       if (m.voxel) v.refuse("either voxel or tolerance, not both");
-       m.tolerance = v.positive_length();
+     [](const RecipeValue& v, MeshRecipe& m) {
+       if (m.polygonize.voxel) v.refuse("either voxel or tolerance, not both");
+       m.polygonize.tolerance = v.positive_length();
      }},
     {"max_triangles",
-     [](const RecipeValue& v, PolygonizeOptions& m) {
-       m.max_triangles = static_cast<std::size_t>(v.integer(1, kLargestInteger));
+     [](const RecipeValue& v, MeshRecipe& m) {
+       m.polygonize.max_triangles = static_cast<std::size_t>(v.integer(1, kLargestInteger));
      }},
+    {"lod", read_levels},
+    {"occlusion", [](const RecipeValue& v, MeshRecipe& m) { m.occlusion = v.flag(); }},
 };
 
 const KeyRule<VolumeOptions> kVolumeKeys[] = {
@@ -253,6 +266,19 @@ Recipe read_root(toml::table root, RecipeSource source, const std::vector<std::s
 }
 
 }  // namespace
+
+std::vector<std::size_t> parse_levels(std::string_view text, const SourceLocation& at) {
+  std::vector<std::size_t> levels;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    levels.push_back(parse_count(text.substr(begin, end - begin), at));
+    const std::size_t n = levels.size();
+    if (n > 1 && levels[n - 1] >= levels[n - 2])
+      throw InputError(at, "'" + std::string(text.substr(0, 60)) + "'", "each level to have fewer triangles than the one before");
+    begin = end + 1;
+  }
+  return levels;
+}
 
 Recipe read_recipe(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const std::string text = read_text(file);

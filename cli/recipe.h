@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "blobtree/input_error.h"
@@ -33,15 +34,25 @@ struct BarkRecipe {
   SourceLocation texture_named_at;
 };
 
+/// [mesh].
+struct MeshRecipe {
+  PolygonizeOptions polygonize;
+  std::vector<std::size_t> lod;  ///< triangles at most of each level of detail, descending; empty: one level, as it comes
+  bool occlusion = true;
+};
+
 struct Recipe {
   SkeletonRecipe skeleton;
   SurfaceOptions surface;
   std::vector<SourceLocation> prunes_at, scars_at;  ///< of surface.prunes and surface.scars
   std::vector<BarkRecipe> bark;                     ///< by branch order, the last goes on; empty: the built-in
   RenderOptions render;                             ///< its bark is empty
-  PolygonizeOptions mesh;
+  MeshRecipe mesh;
   VolumeOptions volume;
 };
+
+/// "1200k,50k,20k": levels of detail from the command line. Errors: InputError at `at`, also where they do not descend.
+std::vector<std::size_t> parse_levels(std::string_view text, const SourceLocation& at);
 
 /// Reads `file` with the `--set key=value` texts applied on top, one after the other.
 /// Errors: InputError with line and column for broken TOML, unknown keys, wrong types and values out of range.

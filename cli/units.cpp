@@ -9,6 +9,7 @@ namespace cambium {
 namespace {
 
 constexpr int kLargestImageSide = 65536;
+constexpr double kLargestCount = 1e15;  // doubles still count one by one
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
@@ -64,6 +65,16 @@ double parse_positive_length(std::string_view text, const SourceLocation& at) {
   const double length = parse_length(text, at);
   if (!(length > 0)) throw InputError(at, quoted(text), "a length greater than 0, such as 5mm");
   return length;
+}
+
+std::size_t parse_count(std::string_view text, const SourceLocation& at) {
+  std::string_view rest = trimmed(text);
+  const auto value = take_number(rest);
+  const double scale = rest.empty() ? 1 : rest == "k" ? 1e3 : rest == "M" ? 1e6 : 0;
+  const double count = value.value_or(0) * scale;
+  if (!(count >= 1 && count <= kLargestCount) || std::abs(count - std::round(count)) > 1e-6)
+    throw InputError(at, quoted(text), "a whole number of at least 1, such as 20000, 50k or 1.2M");
+  return static_cast<std::size_t>(std::llround(count));
 }
 
 std::pair<int, int> parse_image_size(std::string_view text, const SourceLocation& at) {

@@ -1,6 +1,7 @@
 // Numbers with units as people type them, on the command line and in recipes.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <utility>
 
@@ -15,6 +16,9 @@ double parse_number(std::string_view text, const SourceLocation& at);
 double parse_length(std::string_view text, const SourceLocation& at);
 /// The same, greater than zero.
 double parse_positive_length(std::string_view text, const SourceLocation& at);
+
+/// "20000", "50k" or "1.2M": a whole number of at least 1. Errors: InputError at `at`.
+std::size_t parse_count(std::string_view text, const SourceLocation& at);
 
 /// "768x1024": width and height in pixels, each 1 to 65536. Errors: InputError at `at`.
 std::pair<int, int> parse_image_size(std::string_view text, const SourceLocation& at);

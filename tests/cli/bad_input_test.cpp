@@ -169,7 +169,12 @@ TEST_F(BadInput, OptionsAreNamed) {
   expect_refused({"mesh", input, "-o", at("a.obj"), "--voxel", "-2mm"}, "--voxel: ");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--tolerance", "nan"}, "--tolerance: ");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--up", "x"}, "--up: ");
-  expect_refused({"mesh", input, "-o", at("a.obj"), "--max-triangles", "0"}, "--max-triangles: ");
+  for (const char* count : {"0", "-5", "5x", "1.5", "many"})
+    expect_refused({"mesh", input, "-o", at("a.obj"), "--max-triangles", count}, "--max-triangles: ");
+  for (const char* levels : {"0", "5k,5k", "5k,6k", "5k,", ",5k", "5k,two", "5k 2k"})
+    expect_refused({"mesh", input, "-o", at("a.obj"), "--lod", levels}, "--lod: ");
+  expect_refused({"mesh", input, "-o", at("a.obj"), "--lod"}, "cambium: found bad usage");
+  expect_refused({"mesh", input, "-o", at("a.obj"), "--verify=maybe"}, "cambium: found bad usage");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--voxel", "1cm", "--tolerance", "1cm"}, "cambium: found bad usage");
   expect_refused({"volume", input, "-o", at("a.vdb"), "--voxel", "5 furlongs"}, "--voxel: ");
   expect_refused({"volume", input, "-o", at("a.vdb"), "--kind", "dense"}, "--kind: ");

@@ -122,6 +122,58 @@ TEST_F(Commands, ToleranceIsHalfACellAndOverridesTheRecipe) {
       figures({"mesh", at("tiny.tree.toml"), "-o", at("a.obj"), "--set", "mesh.voxel=5cm"})["voxel"].get<double>(), 0.05);
 }
 
+TEST_F(Commands, LevelsOfDetailGoIntoOneGlbAndOneFileEachOtherwise) {
+  const Json glb = figures({"mesh", at("tiny.tree.toml"), "-o", at("a.glb"), "--lod", "2k,500,100"});
+  ASSERT_EQ(glb["levels"].size(), 3u);
+  const std::size_t most[] = {2000, 500, 100};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LE(glb["levels"][i]["triangles"].get<std::size_t>(), most[i]);
+    EXPECT_GT(glb["levels"][i]["triangles"].get<std::size_t>(), most[i] / 2);
+  }
+  EXPECT_EQ(glb["triangles"], glb["levels"][0]["triangles"]);
+  EXPECT_NE(folder_.read("a.glb").find("MSFT_lod"), std::string::npos);
+  figures({"mesh", at("tiny.tree.toml"), "-o", at("b.off"), "--lod", "2k,500,100"});
+  EXPECT_FALSE(folder_.has("b.off"));
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::istringstream file(folder_.read("b_lod" + std::to_string(i) + ".off"));
+    std::string magic;
+    std::size_t vertices = 0, triangles = 0;
+    file >> magic >> vertices >> triangles;
+    EXPECT_EQ(triangles, glb["levels"][i]["triangles"].get<std::size_t>());
+  }
+  figures({"mesh", at("tiny.tree.toml"), "-o", at("c.off"), "--lod", "500"});
+  EXPECT_TRUE(folder_.has("c.off"));
+}
+
+TEST_F(Commands, LevelsThatCannotBeReachedAreSaid) {
+  const Ran ran = run_program({"mesh", at("tiny.tree.toml"), "-o", at("a.off"), "--lod", "3"});
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_TRUE(ran.err.starts_with("cambium: level 0 has ")) << ran.err;
+  EXPECT_TRUE(folder_.has("a.off"));
+}
+
+TEST_F(Commands, VerifyMeasuresBothWaysAndSaysOnStderrWhatIsMissed) {
+  const Json json = figures({"mesh", at("tiny.blob.json"), "-o", at("a.off"), "--tolerance", "2cm", "--verify"});
+  for (const char* way : {"mesh_to_surface", "surface_to_mesh"}) {
+    const Json& d = json["verify"][way];
+    EXPECT_GT(d["samples"].get<int>(), 100);
+    EXPECT_LE(d["mean"].get<double>(), d["p99"].get<double>());
+    EXPECT_LE(d["p99"].get<double>(), d["p999"].get<double>());
+    EXPECT_LE(d["p999"].get<double>(), d["max"].get<double>());
+    EXPECT_GT(d["max"].get<double>(), 0);
+    EXPECT_LE(d["max"].get<double>(), 0.04);
+    EXPECT_EQ(d["within_twice"], 1);
+  }
+  EXPECT_EQ(json["verify"]["self_intersections"], 0);
+  EXPECT_EQ(json["verify"]["topology"]["euler"], 2);
+  EXPECT_EQ(json["verify"]["topology"]["boundary_edges"], 0);
+  // The first level of detail is what the tolerance is asked of; eight triangles are no sphere.
+  const Ran ran = run_program({"mesh", at("tiny.blob.json"), "-o", at("a.off"), "--tolerance", "1cm", "--lod", "8", "--verify"});
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_NE(ran.err.find("misses its tolerance of 0.01 m"), std::string::npos) << ran.err;
+  EXPECT_TRUE(folder_.has("a.off"));
+}
+
 TEST_F(Commands, UpTurnsTheMesh) {
   figures({"mesh", at("tiny.blob.json"), "-o", at("z.off"), "--voxel", "20cm"});
   figures({"mesh", at("tiny.blob.json"), "-o", at("y.off"), "--voxel", "20cm", "--up", "y"});

@@ -66,6 +66,8 @@ frame = [[1, 1, 1], [0, 0, 0]]
 ground = false
 [mesh]
 tolerance = "0.5mm"
+lod = [1200000, "50k", "20k"]
+occlusion = false
 [volume]
 voxel = "5mm"
 kind = "fog"
@@ -102,8 +104,19 @@ TEST(Recipe, EveryPartIsRead) {
   EXPECT_EQ(recipe.render.light.sky_zenith, Vec3(1.0));
   EXPECT_FALSE(recipe.render.light.ground);
   EXPECT_EQ(recipe.render.camera.frame->hi, Vec3(1.0));
-  EXPECT_DOUBLE_EQ(*recipe.mesh.tolerance, 0.0005);
+  EXPECT_DOUBLE_EQ(*recipe.mesh.polygonize.tolerance, 0.0005);
+  EXPECT_EQ(recipe.mesh.lod, (std::vector<std::size_t>{1200000, 50000, 20000}));
+  EXPECT_FALSE(recipe.mesh.occlusion);
   EXPECT_EQ(recipe.volume.kind, VolumeKind::kFog);
+}
+
+TEST(Recipe, LevelsOfTheCommandLineDescend) {
+  EXPECT_EQ(parse_levels("1.2M,50k,5000", {"--lod"}), (std::vector<std::size_t>{1200000, 50000, 5000}));
+  EXPECT_EQ(parse_levels("7", {"--lod"}), std::vector<std::size_t>{7});
+  for (const char* text : {"", ",", "5k,", ",5k", "5k,5k", "5k,6k", "5k;2k", "5k,-1"}) {
+    SCOPED_TRACE(text);
+    EXPECT_THROW(parse_levels(text, {"--lod"}), InputError);
+  }
 }
 
 TEST(Recipe, PathsAreRelativeToTheRecipe) {
@@ -154,6 +167,11 @@ TEST(Recipe, MalformedOnesAreRefusedAtTheirPlace) {
       {"[render.camera]\nfov = 0", 2, 7, "the number 0"},
       {"[render.camera]\nframe = [[0,0,0],[0,0,0]]", 2, 9, "an array of 2"},
       {"[mesh]\nvoxel = 0.1\ntolerance = 0.1", 3, 13, "the number 0.1"},
+      {"[mesh]\nlod = 5", 2, 7, "the number 5"},
+      {"[mesh]\nlod = [5, 0]", 2, 11, "the number 0"},
+      {"[mesh]\nlod = [\"5k\", \"5x\"]", 2, 14, "'5x'"},
+      {"[mesh]\nlod = [5000, \"5k\"]", 2, 14, "the string '5k'"},
+      {"[mesh]\nocclusion = 1", 2, 13, "the number 1"},
       {"[volume]\nkind = \"density\"", 2, 8, "the string 'density'"},
       {"a = 1\na = 2", 2, 5, ""},
       {"a = \"\xff\"", 1, 5, ""},
@@ -183,7 +201,7 @@ TEST(Recipe, SetOverridesAnyKeyAndArrayIndex) {
   ASSERT_EQ(recipe.surface.prunes.size(), 3u);
   EXPECT_EQ(recipe.surface.prunes[2].where.branch, 9u);
   EXPECT_DOUBLE_EQ(recipe.surface.bend[1], 24 * std::numbers::pi / 180);
-  EXPECT_DOUBLE_EQ(*recipe.mesh.tolerance, 0.002);
+  EXPECT_DOUBLE_EQ(*recipe.mesh.polygonize.tolerance, 0.002);
   EXPECT_EQ(recipe.render.camera.frame->hi, Vec3(2.0));
   EXPECT_EQ(recipe.bark[0].material.style, BarkStyle::kBirch);
   EXPECT_FALSE(recipe.surface.conditioning.enabled);

@@ -34,6 +34,16 @@ TEST(Units, PositiveLengthsRefuseZeroAndLess) {
   EXPECT_DOUBLE_EQ(parse_positive_length("2mm", kHere), 0.002);
 }
 
+TEST(Units, CountsTakeThousandsAndMillions) {
+  EXPECT_EQ(parse_count("20000", kHere), 20000u);
+  EXPECT_EQ(parse_count("50k", kHere), 50000u);
+  EXPECT_EQ(parse_count(" 1.2M ", kHere), 1200000u);
+  for (const char* text : {"", "k", "0", "0k", "-5k", "5K", "5m", "1.5", "0.0001k", "5kk", "nan", "inf", "1e300", "5 k"}) {
+    SCOPED_TRACE(text);
+    EXPECT_THROW(parse_count(text, kHere), InputError);
+  }
+}
+
 TEST(Units, ImageSizesAreTwoWholeSides) {
   EXPECT_EQ(parse_image_size("768x1024", kHere), std::pair(768, 1024));
   EXPECT_EQ(parse_image_size("1X65536", kHere), std::pair(1, 65536));
