@@ -96,29 +96,14 @@ class Obstacles {
   RTCScene scene_ = nullptr;
 };
 
-/// A pure function of (seed, vertex): any thread may ask for any vertex.
-std::uint64_t scrambled(std::uint64_t seed, std::uint64_t vertex) {   // SplitMix64
-  std::uint64_t x = seed + 0x9e3779b97f4a7c15ull * (vertex + 1);
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebull;
-  return x ^ x >> 31;
+/// Cosine-weighted directions over the upper half of the unit sphere: the k-th of a low-discrepancy sequence (Roberts 2018). Neighbours
+/// in the mesh mostly have neighbouring numbers and so, between them, well-spread rays: their mean has little noise.
+glm::vec3 direction(std::uint64_t k) {
+  constexpr std::uint64_t kFirst = 0xc13fa9a902a6328full, kSecond = 0x91e10da5c79e7b1dull;   // 2^64 / g and / g^2, g^3 = g + 1
+  const float a = static_cast<float>((k * kFirst) >> 40) * 0x1p-24f, turn = static_cast<float>((k * kSecond) >> 40) * 0x1p-24f;
+  const float across = std::sqrt(a), angle = 2 * std::numbers::pi_v<float> * turn;
+  return {across * std::cos(angle), across * std::sin(angle), std::sqrt(1 - a)};
 }
-
-/// Cosine-weighted directions over the upper half of the unit sphere: rank-1 points, shifted for each vertex.
-class Directions {
- public:
-  explicit Directions(int count) : count_(count) {}
-  glm::vec3 operator()(int k, std::uint64_t bits) const {
-    constexpr float kGolden = 0.61803398875f;
-    const float shift_a = static_cast<float>(bits >> 40) * 0x1p-24f, shift_b = static_cast<float>(bits & 0xffffff) * 0x1p-24f;
-    const float a = (static_cast<float>(k) + shift_a) / static_cast<float>(count_), turn = kGolden * static_cast<float>(k) + shift_b;
-    const float across = std::sqrt(a), angle = 2 * std::numbers::pi_v<float> * (turn - std::floor(turn));
-    return {across * std::cos(angle), across * std::sin(angle), std::sqrt(std::max(0.0f, 1 - a))};
-  }
-
- private:
-  int count_;
-};
 
 /// Two unit vectors that with n make a right-handed frame (Duff et al. 2017).
 void frame_of(const glm::vec3& n, glm::vec3& t, glm::vec3& b) {
@@ -159,7 +144,6 @@ std::optional<std::vector<float>> ambient_occlusion(const Mesh& mesh, const Occl
   arena.execute([&] {
     const Obstacles obstacles(mesh, center, run);
     if (run.cancelled()) return;
-    const Directions directions(options.rays);
     const auto length = static_cast<float>(reach);
     const double step = 1.0 / static_cast<double>(open.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, open.size(), 1024), [&](const auto& range) {
@@ -169,10 +153,10 @@ std::optional<std::vector<float>> ambient_occlusion(const Mesh& mesh, const Occl
         const glm::vec3 from(mesh.positions[i] - center + lift * Vec3(n));
         glm::vec3 t, b;
         frame_of(n, t, b);
-        const std::uint64_t bits = scrambled(options.seed, i);
+        const auto rays = static_cast<std::uint64_t>(options.rays);
         float seen = 0;
-        for (int k = 0; k < options.rays; ++k) {
-          const glm::vec3 d = directions(k, bits);
+        for (std::uint64_t k = 0; k < rays; ++k) {
+          const glm::vec3 d = direction(options.seed + i * rays + k);
           seen += obstacles.distance(from, d.x * t + d.y * b + d.z * n, length);
         }
         open[i] = std::clamp(seen / (length * static_cast<float>(options.rays)), 0.0f, 1.0f);
@@ -181,7 +165,8 @@ std::optional<std::vector<float>> ambient_occlusion(const Mesh& mesh, const Occl
     });
   });
   if (run.cancelled()) return std::nullopt;
-  smooth_over_edges(mesh, open);
+  constexpr int kSmoothings = 2;
+  for (int i = 0; i < kSmoothings; ++i) smooth_over_edges(mesh, open);
   progress.finish();
   return open;
 }

@@ -12,7 +12,7 @@ namespace cambium {
 
 struct OcclusionOptions {
   std::optional<double> reach;     ///< metres a ray looks for an obstacle; unset: a tenth of the mesh's longest side
-  int rays = 12;                   ///< per vertex, 1 to 4096, before a pass that averages over neighbouring vertices
+  int rays = 4;                    ///< per vertex, 1 to 4096, before passes that average over neighbouring vertices
   std::uint64_t seed = 0;
 };
 
