@@ -96,29 +96,34 @@ double turns(double angle) {
   return std::min(t - std::floor(t), std::nextafter(1.0, 0.0));
 }
 
-/// Metres along one segment of a chain, q being counted from its begin. Between segments they are measured by planes that halve the
-/// angle, so v neither skips nor stands still where a chain turns, as the nearest parameter does; past the ends of the chain the
-/// last segment goes straight on, so v does not stand still on a rounded tip.
-double metres_along(const CompiledTree& tree, std::uint32_t atom, const SweptSegment<double>& segment, const Vec3& q) {
+/// Where a point lies between the ends of a chain's segment. They are planes that halve the angle with its neighbours, so metres
+/// along the chain neither skip nor stand still where it turns, as the nearest parameter does; past the ends of the chain its
+/// segments go straight on, so they do not stand still on a rounded tip.
+struct BetweenEnds {
+  double since = 0, until = 0;     ///< metres past the begin and before the end, along the segment's axis; negative outside
+  bool straight = false;           ///< nothing follows there: `since` is all there is to know
+  double metres(double length) const {
+    if (straight) return since;
+    if (since <= 0) return 0;
+    return until <= 0 ? length : length * since / (since + until);
+  }
+};
+
+/// q is counted from the segment's begin.
+BetweenEnds between_ends(const CompiledTree& tree, std::uint32_t atom, const SweptSegment<double>& segment, const Vec3& q) {
   const double h = glm::dot(q, segment.axis);
-  if (!(segment.end > 0)) return h;
   const CompiledNode& chain = tree.node_of(atom);
   const std::uint32_t last = chain.first_atom + tree.chains[chain.payload].node_count - 2;
-  // How far a plane is passed, along this segment's axis.
+  if (!(segment.end > 0) || (atom == chain.first_atom && h <= 0) || (atom == last && h >= segment.end)) return {h, 0, true};
   const auto passed = [&](std::uint32_t neighbour, const Vec3& from) {
     const SweptSegment<double> next = tree.segment_of(neighbour);
     const double cosine = glm::dot(next.axis, segment.axis);
     if (!(next.end > 0) || !(cosine > 0)) return glm::dot(from, segment.axis);
     return (glm::dot(from, segment.axis) + glm::dot(from, next.axis)) / (1 + cosine);
   };
-  if (atom == chain.first_atom && h <= 0) return h;
-  if (atom == last && h >= segment.end) return h;
   const Vec3 to_end = q - segment.end * segment.axis;
-  const double since = atom == chain.first_atom ? h : passed(atom - 1, q);
-  const double until = -(atom == last ? glm::dot(to_end, segment.axis) : passed(atom + 1, to_end));
-  if (since <= 0) return 0;
-  if (until <= 0) return segment.end;
-  return segment.end * since / (since + until);
+  return {atom == chain.first_atom ? h : passed(atom - 1, q),
+          -(atom == last ? glm::dot(to_end, segment.axis) : passed(atom + 1, to_end))};
 }
 
 }  // namespace
@@ -234,8 +239,22 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
       }
       const SweptSegment<double>& segment = s.shapes.segments()[winner];
       c.radius = segment.radius_at(closest_parameter(segment, q - segment.a));
-      place(scratch_->shapes.coordinates(view, winner), segment.a,
-            metres_along(tree, view.tape.slots()[winner], segment, q - segment.a));
+      const auto slots = view.tape.slots();
+      const auto between = [&] {
+        const SweptSegment<double>& at = s.shapes.segments()[winner];
+        return between_ends(tree, slots[winner], at, q - at.a);
+      };
+      // Outside of a bend a node is the nearest to points on both sides of its plane.
+      BetweenEnds ends = between();
+      if (!ends.straight && ends.until < 0 && winner + 1 < in.first + in.count && slots[winner + 1] == slots[winner] + 1) {
+        ++winner;
+        ends = between();
+      } else if (!ends.straight && ends.since < 0 && winner > in.first && slots[winner - 1] + 1 == slots[winner]) {
+        --winner;
+        ends = between();
+      }
+      const SweptSegment<double>& at = s.shapes.segments()[winner];
+      place(scratch_->shapes.coordinates(view, winner), at.a, ends.metres(at.end));
     } else {
       const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.instructions().data()));
       const NativeAxis native = native_axis(primitive);

@@ -83,6 +83,53 @@ TEST(Contributions, OfAChainAreContinuousAlongIt) {
   }
 }
 
+// Where a chain turns, the nearest parameter stands still outside of the bend and skips inside of it; metres along it do not.
+TEST(Contributions, MetresRunEvenlyRoundABendAndOverTheTips) {
+  const double turn = 0.6;
+  const Vec3 first = kX, second(std::cos(turn), std::sin(turn), 0), node = 1.0 * first, tip = node + 1.0 * second;
+  BlobTreeBuilder b;
+  const NodeId id = b.add(Chain{{{kO, 0.1}, {node, 0.1}, {tip, 0.1}}});
+  b.set_attributes(id, {0, 0, 5, kZ});
+  const Field field(b.build(id));
+  const Vec3 outwards = glm::normalize(Vec3(std::sin(turn / 2), -std::cos(turn / 2), 0));
+  for (const double side : {1.0, -1.0, 0.0}) {
+    // From across the middle of one piece to across the middle of the other, along their surface.
+    const Vec3 out1 = side == 0 ? kZ : side * Vec3(0, -1, 0), out2 = side == 0 ? kZ : side * Vec3(std::sin(turn), -std::cos(turn), 0);
+    const Vec3 corner = node + (side == 0 ? 0.1 * kZ : side * 0.1 / std::cos(turn / 2) * outwards);
+    const Vec3 from = 0.5 * first + 0.1 * out1, to = node + 0.5 * second + 0.1 * out2;
+    const double way = glm::distance(from, corner) + glm::distance(corner, to);
+    double last = contributions(field, from)[0].v;
+    EXPECT_NEAR(last, 5.5, 0.02);
+    const int steps = 400;
+    for (int i = 1; i <= steps; ++i) {
+      const double at = way * i / steps, split = glm::distance(from, corner);
+      const Vec3 p = at < split ? glm::mix(from, corner, at / split) : glm::mix(corner, to, (at - split) / (way - split));
+      const auto c = contributions(field, p);
+      ASSERT_EQ(c.size(), 1u);
+      EXPECT_NEAR((c[0].v - last) / (way / steps), 1, 0.12) << "side " << side << " step " << i;
+      last = c[0].v;
+    }
+    EXPECT_NEAR(last, 6.5, 0.02);
+  }
+  for (const double beyond : {0.0, 0.05, 0.0999}) {
+    const auto c = contributions(field, tip + beyond * second + std::sqrt(0.01 - beyond * beyond) * kZ);
+    EXPECT_NEAR(c[0].v, 7 + beyond, 1e-9);
+    EXPECT_NEAR(c[0].from_axis, std::sqrt(0.01 - beyond * beyond), 1e-9);
+    EXPECT_NEAR(contributions(field, -beyond * first + std::sqrt(0.01 - beyond * beyond) * kZ)[0].v, 5 - beyond, 1e-9);
+  }
+}
+
+TEST(Contributions, NameTheirPrimitiveTheSameEverywhere) {
+  BlobTreeBuilder b;
+  const NodeId left = b.add(Chain{{{kO, 0.1}, {kX, 0.1}, {2.0 * kX, 0.1}}}), right = b.add(Sphere{{2.1, 0, 0}, 0.1, 1});
+  const Field field(b.build(b.add(Sum{{left, right}})));
+  const auto a = contributions(field, {0.2, 0, 0.05}), c = contributions(field, {1.5, 0, 0.05}), both = contributions(field, {2.05, 0, 0.05});
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(a[0].primitive, c[0].primitive);
+  EXPECT_EQ(both[0].primitive, a[0].primitive);
+  EXPECT_NE(both[1].primitive, a[0].primitive);
+}
+
 TEST(SurfaceTraits, TellCutsRidgesAndDentsApart) {
   BlobTreeBuilder b;
   const NodeId left = b.add(Capsule{{-0.09, 0, -1}, {-0.09, 0, 1}, 0.1, 1}), right = b.add(Capsule{{0.09, 0, -1}, {0.09, 0, 1}, 0.1, 1});

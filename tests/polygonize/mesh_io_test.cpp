@@ -1,18 +1,16 @@
 #include "polygonize/mesh_io.h"
 
 #include "blobtree/input_error.h"
+#include "written_file.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace cambium {
 namespace {
+
+using namespace testing;
 
 // A tetrahedron far from the origin whose corners a 6-digit writer would merge.
 Mesh tetrahedron() {
@@ -23,25 +21,6 @@ Mesh tetrahedron() {
   mesh.colors = {{{255, 0, 0, 255}}, {{0, 128, 0, 255}}, {{0, 0, 64, 255}}, {{9, 9, 9, 255}}};
   mesh.triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{0, 3, 2}}};
   return mesh;
-}
-
-std::string written(const Mesh& mesh, const std::string& format, UpAxis up = UpAxis::kZ) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("cambium_mesh_io_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".part");
-  write_mesh(mesh, path, format, up);
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  in.close();
-  std::filesystem::remove(path);
-  return bytes;
-}
-
-template <class T>
-T read(const std::string& bytes, std::size_t at) {
-  T value{};
-  EXPECT_LE(at + sizeof(T), bytes.size());
-  if (at + sizeof(T) <= bytes.size()) std::memcpy(&value, bytes.data() + at, sizeof(T));
-  return value;
 }
 
 TEST(MeshIo, ObjHasEveryVertexNormalAndFaceWithEnoughDigits) {
@@ -77,14 +56,14 @@ TEST(MeshIo, PlyIsBinaryWithNormalsAndColours) {
   EXPECT_NE(header.find("element face 4"), std::string::npos);
   EXPECT_NE(header.find("nx"), std::string::npos);
   EXPECT_NE(header.find("red"), std::string::npos) << header;
-  EXPECT_NEAR(read<float>(bytes, end + 11), 30.0001, 1e-5);
+  EXPECT_NEAR(read_at<float>(bytes, end + 11), 30.0001, 1e-5);
 }
 
 TEST(MeshIo, StlIsBinaryWithFacetNormals) {
   const std::string bytes = written(tetrahedron(), ".stl");
   ASSERT_EQ(bytes.size(), 84u + 4 * 50);
-  EXPECT_EQ(read<std::uint32_t>(bytes, 80), 4u);
-  EXPECT_NEAR(read<float>(bytes, 84 + 8), -1, 1e-5);   // the first facet looks down
+  EXPECT_EQ(read_at<std::uint32_t>(bytes, 80), 4u);
+  EXPECT_NEAR(read_at<float>(bytes, 84 + 8), -1, 1e-5);   // the first facet looks down
 }
 
 TEST(MeshIo, OffCountsItsElements) {
@@ -114,9 +93,9 @@ TEST(MeshIo, UpYTurnsTheMeshAQuarterAboutX) {
 TEST(MeshIo, GlbHoldsYUpFloatsLinearColoursAndIndices) {
   const std::string bytes = written(tetrahedron(), ".glb");
   ASSERT_EQ(bytes.substr(0, 4), "glTF");
-  EXPECT_EQ(read<std::uint32_t>(bytes, 4), 2u);
-  EXPECT_EQ(read<std::uint32_t>(bytes, 8), bytes.size());
-  const auto json_size = read<std::uint32_t>(bytes, 12);
+  EXPECT_EQ(read_at<std::uint32_t>(bytes, 4), 2u);
+  EXPECT_EQ(read_at<std::uint32_t>(bytes, 8), bytes.size());
+  const auto json_size = read_at<std::uint32_t>(bytes, 12);
   const auto json = nlohmann::json::parse(bytes.substr(20, json_size));
   EXPECT_EQ(json["asset"]["generator"], "Cambium");
   const std::size_t binary = 20 + json_size + 8;
@@ -127,17 +106,17 @@ TEST(MeshIo, GlbHoldsYUpFloatsLinearColoursAndIndices) {
   };
   const int position = primitive["attributes"]["POSITION"], normal = primitive["attributes"]["NORMAL"],
             color = primitive["attributes"]["COLOR_0"], indices = primitive["indices"];
-  EXPECT_NEAR(read<float>(bytes, offset(position)), 30.0001, 1e-5);
-  EXPECT_NEAR(read<float>(bytes, offset(position) + 4), 10, 1e-5);
-  EXPECT_NEAR(read<float>(bytes, offset(position) + 8), 20, 1e-5);
+  EXPECT_NEAR(read_at<float>(bytes, offset(position)), 30.0001, 1e-5);
+  EXPECT_NEAR(read_at<float>(bytes, offset(position) + 4), 10, 1e-5);
+  EXPECT_NEAR(read_at<float>(bytes, offset(position) + 8), 20, 1e-5);
   EXPECT_NEAR(json["accessors"][position]["max"][1].get<double>(), 10.001, 1e-5);
   EXPECT_NEAR(json["accessors"][position]["min"][2].get<double>(), 19.999, 1e-5);
   // Vertices stand in the order of their first use: 0, 2, 1, 3.
-  EXPECT_EQ(read<float>(bytes, offset(normal) + 3 * 12 + 4), 1);   // z became y
-  EXPECT_EQ(read<std::uint8_t>(bytes, offset(color)), 255);
-  EXPECT_EQ(read<std::uint8_t>(bytes, offset(color) + 9), 55);     // sRGB 128 in linear light
+  EXPECT_EQ(read_at<float>(bytes, offset(normal) + 3 * 12 + 4), 1);   // z became y
+  EXPECT_EQ(read_at<std::uint8_t>(bytes, offset(color)), 255);
+  EXPECT_EQ(read_at<std::uint8_t>(bytes, offset(color) + 9), 55);     // sRGB 128 in linear light
   EXPECT_TRUE(json["accessors"][color]["normalized"].get<bool>());
-  EXPECT_EQ(read<std::uint32_t>(bytes, offset(indices) + 4), 1u);
+  EXPECT_EQ(read_at<std::uint32_t>(bytes, offset(indices) + 4), 1u);
   EXPECT_EQ(json["accessors"][indices]["count"], 12);
   EXPECT_EQ(json["bufferViews"][json["accessors"][indices]["bufferView"].get<int>()]["target"], 34963);
   EXPECT_EQ(json["bufferViews"][json["accessors"][position]["bufferView"].get<int>()]["target"], 34962);
