@@ -23,12 +23,6 @@ inline const std::vector<std::array<std::uint8_t, 4>>& colors_of(const MeshLevel
   return level.attributes && !level.attributes->colors.empty() ? level.attributes->colors : level.mesh->colors;
 }
 
-/// "image/png" or "image/jpeg", by the first bytes; "" for anything else.
-inline std::string image_type(std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
-  return bytes.starts_with("\xff\xd8\xff") ? "image/jpeg" : "";
-}
-
 /// Bytes on their way to a stream, a megabyte at a time.
 class ByteSink {
  public:

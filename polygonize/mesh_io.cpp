@@ -23,6 +23,11 @@ bool write(const MeshFile& file, std::ostream& out, const std::string& extension
 
 }  // namespace
 
+std::string image_type(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
+  return bytes.starts_with("\xff\xd8\xff") ? "image/jpeg" : "";
+}
+
 void write_mesh(const MeshFile& file, const std::filesystem::path& path, const std::string& format, UpAxis up) {
   std::string extension = format;
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cambium {
@@ -20,8 +21,11 @@ struct MeshMaterial {
   std::string name = "bark";
   std::array<float, 3> color{1, 1, 1};           ///< linear; multiplies the texture and the vertex colours
   float roughness = 0.9f;
-  std::shared_ptr<const std::string> texture;    ///< the bytes of a PNG or JPEG file; null: none. Shared textures are stored once
+  std::shared_ptr<const std::string> texture;    ///< as image_type has it; null: none. Shared ones are stored once
 };
+
+/// "image/png" or "image/jpeg", by a file's first bytes; "" for anything else, which no .glb can take along.
+std::string image_type(std::string_view bytes);
 
 struct MeshLevel {
   const Mesh* mesh = nullptr;

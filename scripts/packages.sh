@@ -10,6 +10,8 @@ packages=(
   libcli11-dev libtomlplusplus-dev
   libgtest-dev libgmock-dev libbenchmark-dev libcgal-dev python3 python3-openvdb
 )
+# The glTF validator's: any node that is there will do, Debian's must not come in beside another.
+command -v node > /dev/null || packages+=(nodejs npm)
 
 if ! command -v dpkg-query > /dev/null; then
   echo "packages.sh: this is not Debian or Ubuntu; the packages needed are: ${packages[*]}" >&2
