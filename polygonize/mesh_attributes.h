@@ -24,7 +24,8 @@ struct MeshAttributeOptions {
   /// By branch id; a branch beyond it (a field without a table) has BranchInfo's defaults.
   std::vector<BranchInfo> branches;
   /// Metres of bark per repeat of the texture, around and along. Unset: the longest that goes round the branches a whole
-  /// number of times without stretching more than a little of them. See MeshAttributes::tile.
+  /// number of times without stretching more than a little of them. Levels of detail should all be given the first one's
+  /// (MeshAttributes::tile): their textures then lie alike.
   std::optional<double> tile;
   double aspect = 1;                           ///< width over height of the texture
   Vec3 hidden_side{-0.29, -0.20, -0.94};       ///< seams go where the surface faces this way: below, and behind for the trunk

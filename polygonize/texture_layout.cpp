@@ -119,9 +119,10 @@ class TextureLayout {
   }
 
   int step_of(double radius) const { return step_of_wraps(kTurn * radius / (out_.tile * options_.aspect)); }
+  /// From the seam on, [seam, seam + 1): where the seam lies is then all that differs between levels of detail.
   double turns_of(std::uint32_t place) const {
-    const double turns = places_.places[place].turns - branches_[layout_of_place_[place]].seam;
-    return turns < 0 ? turns + 1 : turns;
+    const double turns = places_.places[place].turns;
+    return turns < branches_[layout_of_place_[place]].seam ? turns + 1 : turns;
   }
   glm::dvec2 plane_of(std::uint32_t place, bool mirrored) const {
     const SurfacePlace& at = places_.places[place];
@@ -193,8 +194,8 @@ class TextureLayout {
       const auto [low, high] = std::minmax({turns[0] + round[0], turns[1] + round[1], turns[2] + round[2]});
       return high - low;
     };
-    if (spread() > 0.5)
-      for (int c = 0; c < 3; ++c) round[c] = turns[c] < 0.5 ? 1 : 0;
+    if (const double high = std::max({turns[0], turns[1], turns[2]}); spread() > 0.5)
+      for (int c = 0; c < 3; ++c) round[c] = high - turns[c] > 0.5 ? 1 : 0;
     if (spread() > 0.5 || slope_of_v(corners, at) < kFacingAlong) {
       const glm::dvec2 a = plane_of(at[0], false), b = plane_of(at[1], false) - a, c = plane_of(at[2], false) - a;
       const std::uint8_t use = b.x * c.y - b.y * c.x < 0 ? kPlaneMirrored : kPlane;

@@ -167,6 +167,27 @@ TEST(TextureLayout, RepeatsAreOfTheGivenLengthAndWholeInNumber) {
   EXPECT_FALSE(first);
 }
 
+// What a level of detail changes is the mesh, not where the bark lies on the tree.
+TEST(TextureLayout, LevelsOfDetailHaveTheirTextureInTheSamePlace) {
+  const Field field = field_of(Chain{{{Vec3(0, 0, 0), 0.1}, {Vec3(0, 0, 1), 0.1}}, 1});
+  MeshAttributeOptions options;
+  options.tile = 0.05;
+  const auto phases = [&](double voxel) {   // of u, in repeats beside twelve to the turn
+    const Mesh mesh = small_tree_mesh(field, voxel);
+    const MeshAttributes a = *mesh_attributes(field, mesh, options, {});
+    glm::dvec2 sum(0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int c = 0; c < 3; ++c) {
+        const Vec3& p = mesh.positions[mesh.triangles[t][c]];
+        if (p.z < 0.1 || p.z > 0.9) continue;
+        const double phase = 2 * std::numbers::pi * a.uvs[a.uv_triangles[t][c]].x - 12 * std::atan2(p.y, p.x);
+        sum += glm::dvec2(std::cos(phase), std::sin(phase));
+      }
+    return glm::normalize(sum);
+  };
+  EXPECT_LT(glm::distance(phases(0.01), phases(0.04)), 0.05);
+}
+
 // On a saw cut the texture is seen as on a board: no pole, no stretching, nothing mirrored.
 TEST(TextureLayout, CutsArePlane) {
   const Field field = small_tree();
