@@ -2,16 +2,61 @@
 
 #include "blobtree/input_error.h"
 #include "polygonize/edge_collapse.h"
+#include "polygonize/verify.h"
+
+#include <utility>
 
 namespace cambium {
+namespace {
+
+constexpr int kMostRounds = 8;   // of mending; two or three are usual
+
+using Pairs = std::vector<std::array<std::uint32_t, 2>>;
+
+// Locks every vertex of the source that went into a triangle of a pair, and from the third round on into their neighbours too.
+// False if all of them were locked before.
+bool lock_pairs(const Collapsed& made, const Pairs& pairs, int round, std::vector<bool>& locked) {
+  std::vector<bool> marked(made.mesh.positions.size(), false);
+  for (const auto& pair : pairs)
+    for (const std::uint32_t triangle : pair)
+      for (const std::uint32_t v : made.mesh.triangles[triangle]) marked[v] = true;
+  if (round >= 2) {
+    std::vector<bool> wider = marked;
+    for (const auto& t : made.mesh.triangles)
+      if (marked[t[0]] || marked[t[1]] || marked[t[2]])
+        for (const std::uint32_t v : t) wider[v] = true;
+    marked = std::move(wider);
+  }
+  bool more = false;
+  for (std::size_t v = 0; v < locked.size(); ++v) {
+    if (locked[v] || made.survivor[v] >= marked.size() || !marked[made.survivor[v]]) continue;
+    locked[v] = more = true;
+  }
+  return more;
+}
+
+}  // namespace
 
 std::optional<Mesh> decimate(const Mesh& mesh, const DecimateOptions& options, const RunOptions& run) {
   if (options.triangles == 0) throw InputError({}, "0 triangles to decimate to", "at least 1");
   if (mesh.triangles.size() <= options.triangles) return mesh;
   std::vector<bool> locked(mesh.positions.size(), false);
-  auto collapsed = collapse_edges(mesh, options.triangles, locked, run);
-  if (!collapsed) return std::nullopt;
-  return std::move(collapsed->mesh);
+  std::optional<Collapsed> best;
+  std::size_t fewest = 0;
+  for (int round = 0; round < kMostRounds; ++round) {
+    auto made = collapse_edges(mesh, options.triangles, locked, run);
+    if (!made) return std::nullopt;
+    const auto pairs = self_intersections(made->mesh, run);
+    if (!pairs) return std::nullopt;
+    const bool more = !pairs->empty() && lock_pairs(*made, *pairs, round, locked);
+    const bool better = !best || pairs->size() < fewest;
+    if (better) {
+      best = std::move(made);
+      fewest = pairs->size();
+    }
+    if (!more || (round >= 2 && !better)) break;   // what is left was there before
+  }
+  return std::move(best->mesh);
 }
 
 }  // namespace cambium

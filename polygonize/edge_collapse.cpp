@@ -49,9 +49,9 @@ struct ShapeRule {
   double height;      // least height over the longest side
   bool creases;       // collapse along creases only
 };
-// The cases that bracket them: three-sided twigs pass `across` in all; 6-sided twigs ten times as long as thick pass `height`;
-// the flat end of a twig that is cut shorter only passes where `facing` is not asked.
-constexpr ShapeRule kRules[] = {{-0.6, 0.3, 0.2, 0.02, true}, {-0.75, 0.0, -1, 0.004, true}, {-0.75, -0.2, -1, 0.002, false}};
+// The cases that bracket them: three-sided twigs pass `across` in all; 6-sided twigs ten times as long as thick pass `height`; the
+// flat end of a twig that is cut shorter passes `facing` from the second on; without any `facing` triangles span the crown's air.
+constexpr ShapeRule kRules[] = {{-0.6, 0.3, 0.2, 0.02, true}, {-0.7, 0.2, -0.2, 0.01, true}, {-0.75, 0.1, -0.4, 0.004, false}};
 
 // Over the longest side.
 double height_of(const Point& a, const Point& b, const Point& c) {

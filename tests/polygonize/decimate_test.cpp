@@ -2,6 +2,7 @@
 
 #include "blobtree/input_error.h"
 #include "polygonize/polygonize.h"
+#include "polygonize/verify.h"
 #include "tests/polygonize/mesh_checks.h"
 #include "tests/polygonize/sample_fields.h"
 
@@ -93,6 +94,24 @@ TEST(Decimate, ManifoldsStayClosedManifoldsOfTheSameEulerNumber) {
       EXPECT_EQ(after.components, before.components);
       EXPECT_EQ(after.inward_components, before.inward_components);
       EXPECT_NEAR(after.volume / before.volume, 1, divisor == 3 ? 0.01 : 0.1);
+    }
+  }
+}
+
+TEST(Decimate, NothingCrossesItselfThatDidNotBefore) {
+  // Two sheets a cell apart: collapses on one do not see the other.
+  BlobTreeBuilder builder;
+  const NodeId outer = builder.add(Sphere{Vec3(0.03, -0.02, 0.01), 1, 1}), inner = builder.add(Sphere{Vec3(0.03, -0.02, 0.01), 0.93, 1});
+  const NodeId shell = builder.add(Difference{{outer, inner}});
+  const std::pair<Field, double> fields[] = {{Field(builder.build(shell)), 0.06}, {testing::chain_field(), 0.02},
+                                             {testing::fork_field(), 0.02},       {testing::torus_field(), 0.03}};
+  for (const auto& [field, voxel] : fields) {
+    const Mesh mesh = mesh_of(field, voxel);
+    ASSERT_EQ(self_intersections(mesh, {})->size(), 0u);
+    for (const std::size_t divisor : {10, 50}) {
+      const Mesh fewer = decimated(mesh, mesh.triangles.size() / divisor);
+      EXPECT_EQ(self_intersections(fewer, {})->size(), 0u) << mesh.triangles.size() << " to " << fewer.triangles.size();
+      EXPECT_TRUE(check_topology(fewer).closed_manifold());
     }
   }
 }
