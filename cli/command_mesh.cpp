@@ -1,15 +1,18 @@
 // mesh: closed triangle meshes of the surface, in stages: what is asked, the field, the mesh, its levels of detail, what they
-// are worth, the files.
+// carry, what they are worth, the files.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
+#include <memory>
+#include <string_view>
 
 #include "cli/commands.h"
 #include "cli/mesh_figures.h"
 #include "cli/output_file.h"
+#include "cli/read_text.h"
 #include "cli/units.h"
 #include "polygonize/decimate.h"
 #include "polygonize/mesh_io.h"
@@ -74,11 +77,35 @@ std::deque<OutputFile> make_outputs(const std::filesystem::path& target, const M
   return outputs;
 }
 
-void colour_with(const Bark& bark, PolygonizeOptions& options) {
-  options.color = [&bark](Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal) {
+SurfaceColor colours_of(const Bark& bark) {
+  return [&bark](Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal) {
     const Vec3 albedo = bark.albedo(evaluator, field, p, normal);
     return std::array<std::uint8_t, 4>{srgb_byte(albedo.x), srgb_byte(albedo.y), srgb_byte(albedo.z), 255};
   };
+}
+
+std::array<float, 3> as_floats(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
+
+bool fits_gltf(std::string_view image) { return image.starts_with("\x89PNG") || image.starts_with("\xff\xd8\xff"); }
+
+/// The barks of a .glb, by order. Where one has an image, images and plain colours take the place of vertex colours, which would
+/// darken them.
+std::vector<MeshMaterial> materials_of(Job& job, bool& has_images) {
+  const std::vector<BarkRecipe>& barks = job.recipe.bark;
+  std::vector<MeshMaterial> materials(barks.size());
+  has_images = false;
+  for (std::size_t i = 0; i < barks.size(); ++i) {
+    if (barks.size() > 1) materials[i].name = fmt::format("bark of order {}", i);
+    if (!barks[i].texture) continue;
+    auto image = std::make_shared<const std::string>(read_text(*barks[i].texture));
+    if (fits_gltf(*image))
+      materials[i].texture = std::move(image), has_images = true;
+    else
+      job.warnings.push_back(barks[i].texture->string() + " is neither PNG nor JPEG: a .glb takes no other images");
+  }
+  for (std::size_t i = 0; i < barks.size() && has_images; ++i)
+    if (!materials[i].texture) materials[i].color = as_floats(barks[i].material.color);
+  return materials;
 }
 
 // Each stage times itself and gives nullopt when interrupted.
@@ -102,6 +129,18 @@ std::optional<std::vector<Mesh>> make_levels(Job& job, Mesh& mesh, const std::ve
   return levels;
 }
 
+std::optional<std::vector<MeshAttributes>> make_attributes(Job& job, const std::vector<Mesh>& levels, const Field& field,
+                                                           const MeshAttributeOptions& options) {
+  const StageTimer timer(job.figures, "attributes");
+  std::vector<MeshAttributes> attributes;
+  for (const Mesh& level : levels) {
+    auto made = mesh_attributes(field, level, options, job.run);
+    if (!made) return std::nullopt;
+    attributes.push_back(std::move(*made));
+  }
+  return attributes;
+}
+
 std::optional<std::vector<Verification>> verify_levels(Job& job, const std::vector<Mesh>& levels, const Field& field,
                                                        const VerifyOptions& options) {
   const StageTimer timer(job.figures, "verify");
@@ -122,17 +161,20 @@ double screen_coverage(const std::vector<Mesh>& levels, std::size_t level) {
   return triangles(0) > 0 ? std::sqrt(triangles(level + 1) / triangles(0)) : 0;
 }
 
-void write_levels(Job& job, const std::vector<Mesh>& levels, const MeshRequest& request, std::deque<OutputFile>& outputs) {
+void write_levels(Job& job, const std::vector<Mesh>& levels, const std::vector<MeshAttributes>& attributes,
+                  std::vector<MeshMaterial> materials, const MeshRequest& request, std::deque<OutputFile>& outputs) {
   const StageTimer timer(job.figures, "write");
-  MeshFile file;
-  for (std::size_t i = 0; i < levels.size(); ++i) file.levels.push_back({&levels[i], nullptr, screen_coverage(levels, i)});
+  MeshFile all;
+  all.materials = std::move(materials);
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    all.levels.push_back({&levels[i], attributes.empty() ? nullptr : &attributes[i], screen_coverage(levels, i)});
   if (outputs.size() == 1) {
-    write_mesh(file, outputs.front().temporary(), request.format, request.up);
+    write_mesh(all, outputs.front().temporary(), request.format, request.up);
     return;
   }
   for (std::size_t i = 0; i < levels.size() && !job.run.cancelled(); ++i) {
-    MeshFile one;
-    one.levels = {file.levels[i]};
+    MeshFile one = all;
+    one.levels = {all.levels[i]};
     write_mesh(one, outputs[i].temporary(), request.format, request.up);
   }
 }
@@ -140,27 +182,41 @@ void write_levels(Job& job, const std::vector<Mesh>& levels, const MeshRequest& 
 }  // namespace
 
 Outcome run_mesh(Job& job) {
-  MeshRequest request = read_request(job);
+  const MeshRequest request = read_request(job);
   std::deque<OutputFile> outputs = make_outputs(job.line.output, request);
   const Bark bark(load_bark(job.recipe), job.recipe.render.seed);
-  if (request.format != ".stl") colour_with(bark, request.mesh.polygonize);  // which has no colours
-  const auto field = build_field(job);
-  if (!field) return Outcome::kInterrupted;
-  auto made = polygonize_field(job, *field, request.mesh.polygonize);
+  bool has_images = false;
+  std::vector<MeshMaterial> materials;
+  if (request.format == ".glb") materials = materials_of(job, has_images);
+  const auto built = build_tree(job);
+  if (!built || job.run.cancelled()) return Outcome::kInterrupted;
+  const Field field = compile_field(job, built->tree);
+  auto made = polygonize_field(job, field, request.mesh.polygonize);
   if (!made) return Outcome::kInterrupted;
   const auto levels = make_levels(job, made->mesh, request.mesh.lod);
   if (!levels) return Outcome::kInterrupted;
-  job.figures.set("primitives", field->atom_count());
+  job.figures.set("primitives", field.atom_count());
   set_level_figures(job, *levels, request.mesh.lod);
   set_polygonize_figures(job, made->report);
+
+  std::vector<MeshAttributes> attributes;
+  if (request.format != ".stl") {  // which has no place for any
+    MeshAttributeOptions options;
+    options.branches = built->branches;
+    if (!has_images) options.color = colours_of(bark);
+    if (request.mesh.occlusion && (request.format == ".glb" || request.format == ".ply")) options.occlusion.emplace();
+    auto carried = make_attributes(job, *levels, field, options);
+    if (!carried) return Outcome::kInterrupted;
+    attributes = std::move(*carried);
+  }
   if (job.line.verify) {
     VerifyOptions options;
     options.tolerance = request.mesh.polygonize.tolerance.value_or(0);
-    const auto verified = verify_levels(job, *levels, *field, options);
+    const auto verified = verify_levels(job, *levels, field, options);
     if (!verified) return Outcome::kInterrupted;
     set_verify_figures(job, *verified, options.tolerance);
   }
-  write_levels(job, *levels, request, outputs);
+  write_levels(job, *levels, attributes, std::move(materials), request, outputs);
   if (job.run.cancelled()) return Outcome::kInterrupted;
   for (OutputFile& output : outputs) output.commit();
   return Outcome::kDone;
