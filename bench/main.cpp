@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/mesher_run.h"
 #include "bench/sections.h"
 
 namespace cambium::bench {
@@ -17,7 +18,7 @@ constexpr const char* kUsage =
     "usage: cambium_bench [--quick] [--json FILE] [--only SECTION]...\n"
     "  --quick         shorter measurements and smaller trees: ratios are then rough\n"
     "  --json FILE     writes the table's rows there too\n"
-    "  --only SECTION  batches, nodes, poplar or trees\n";
+    "  --only SECTION  batches, nodes, poplar, trees, or mesher, which takes minutes and runs only where it is named\n";
 
 struct Arguments {
   bool quick = false;
@@ -28,9 +29,11 @@ struct Arguments {
 struct Section {
   const char* name;
   void (*run)(Report&, const Pace&);
+  bool always = true;   ///< not only where it is named
 };
 constexpr Section kSections[] = {
-    {"batches", batch_section}, {"nodes", node_section}, {"poplar", poplar_section}, {"trees", trees_section}};
+    {"batches", batch_section}, {"nodes", node_section}, {"poplar", poplar_section}, {"trees", trees_section},
+    {"mesher", mesher_section, false}};
 
 /// False, with a line on the error stream, if there is something wrong with them.
 bool read_arguments(int count, char** words, Arguments& arguments) {
@@ -67,7 +70,7 @@ int run(const Arguments& arguments) {
   const Pace pace = arguments.quick ? Pace{4, 0.005, 100'000, 2} : Pace{};
   Report report;
   for (const Section& section : kSections) {
-    bool wanted = arguments.only.empty();
+    bool wanted = arguments.only.empty() && section.always;
     for (const std::string& name : arguments.only) wanted = wanted || name == section.name;
     if (!wanted) continue;
     fmt::print(stderr, "measuring: {}\n", section.name);
@@ -94,9 +97,14 @@ int main(int count, char** words) {
     fmt::print("{}", cambium::bench::kUsage);
     return 0;
   }
+  const bool is_child = count == 4 && std::string(words[1]) == "--measure-mesher";   // of this program itself
   cambium::bench::Arguments arguments;
-  if (!cambium::bench::read_arguments(count, words, arguments)) return 2;
+  if (!is_child && !cambium::bench::read_arguments(count, words, arguments)) return 2;
   try {
+    if (is_child) {
+      cambium::bench::measure_mesher(words[2], std::stod(words[3]));
+      return 0;
+    }
     return cambium::bench::run(arguments);
   } catch (const std::exception& error) {
     fmt::print(stderr, "cambium_bench: {}\n", error.what());

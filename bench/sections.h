@@ -13,5 +13,7 @@ void node_section(Report& report, const Pace& pace);
 void poplar_section(Report& report, const Pace& pace);
 /// Building, memory, pruning and covers over the size and shape of generated trees.
 void trees_section(Report& report, const Pace& pace);
+/// Our mesher against OpenVDB's at equal error. Takes minutes, and some gigabytes for OpenVDB's.
+void mesher_section(Report& report, const Pace& pace);
 
 }  // namespace cambium::bench
