@@ -64,6 +64,8 @@ void set_verify_figures(Job& job, const std::vector<Verification>& levels, doubl
     const Verification& v = levels[i];
     list.push_back({{"mesh_to_surface", distances(v.mesh_to_surface, tolerance > 0)},
                     {"surface_to_mesh", distances(v.surface_to_mesh, tolerance > 0)},
+                    {"open_surface_to_mesh", distances(v.open_surface_to_mesh, tolerance > 0)},
+                    {"in_cracks", v.in_cracks},
                     {"self_intersections", v.self_intersections},
                     {"topology", topology(v.topology)}});
     const std::string name = level_name(i, levels.size());
@@ -71,12 +73,13 @@ void set_verify_figures(Job& job, const std::vector<Verification>& levels, doubl
     if (v.self_intersections > 0)
       job.warnings.push_back(fmt::format("{}has {} pairs of triangles that cross each other", name, v.self_intersections));
     if (i > 0 || tolerance == 0) continue;   // levels of detail are not asked to be within it
-    for (const auto& [way, d] : {std::pair("the surface", &v.mesh_to_surface), std::pair("the mesh", &v.surface_to_mesh)})
+    for (const auto& [way, d] : {std::pair("the surface", &v.mesh_to_surface), std::pair("the mesh", &v.open_surface_to_mesh)})
       if (d->within < kWithin || d->within_twice < 1)
         job.warnings.push_back(fmt::format("{}misses its tolerance of {:g} m: {:.3f} % of the samples are within it, the farthest is "
                                            "{:g} m from {}",
                                            name, tolerance, 100 * d->within, d->max, way));
   }
+  if (tolerance > 0) job.figures.set("tolerance", tolerance);
   job.figures.set("verify", levels.size() == 1 ? list[0] : list);
 }
 

@@ -81,24 +81,41 @@ DistanceFigures figures_of(const std::vector<Group>& groups, double tolerance) {
   return figures;
 }
 
-std::optional<DistanceFigures> measure_surface_to_mesh(const SurfaceSamples& samples, const MeshDistance& mesh, double tolerance,
-                                                       const RunOptions& run) {
+// From p, on the surface, straight out: back in the wood before `width`.
+bool in_crack(const Field& field, const Vec3& p, double width) {
+  const Vec3 gradient = field.sample(p).gradient;
+  const double slope = glm::length(gradient);
+  if (!(slope > 0)) return false;
+  constexpr int kSteps = 32;
+  for (int i = 1; i <= kSteps; ++i) {
+    const Vec3 q = p - (width * i / kSteps / slope) * gradient;
+    if (field.value(q) >= kIso) return true;
+  }
+  return false;
+}
+
+bool measure_surface_to_mesh(const Field& field, const SurfaceSamples& samples, const MeshDistance& mesh, double tolerance,
+                             const RunOptions& run, Verification& result) {
   constexpr std::size_t kGroup = 256;
-  std::vector<Group> groups((samples.points.size() + kGroup - 1) / kGroup);
+  std::vector<Group> groups((samples.points.size() + kGroup - 1) / kGroup), open(groups.size());
   ProgressMeter progress(run, "measuring from the surface");
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-    if (run.cancelled()) return;
-    for (std::size_t i = g * kGroup; i < std::min(samples.points.size(), (g + 1) * kGroup); ++i) {
+    double last = kInfinity;
+    for (std::size_t i = g * kGroup; i < std::min(samples.points.size(), (g + 1) * kGroup) && !run.cancelled(); ++i) {
       const Vec3& p = samples.points[i];
       // The last sample is near by, and its triangle not farther than it and the way between them.
-      const bool follows = i > g * kGroup;
-      const double hint = follows ? groups[g].distances.back() + glm::length(p - samples.points[i - 1]) : kInfinity;
-      groups[g].add(p, mesh(p, hint));
+      const double hint = i > g * kGroup ? last + glm::length(p - samples.points[i - 1]) : kInfinity;
+      last = mesh(p, hint);
+      groups[g].add(p, last);
+      if (!(tolerance > 0 && last > tolerance && in_crack(field, p, tolerance))) open[g].add(p, last);
     }
     progress.add(1.0 / static_cast<double>(groups.size()));
   });
-  if (run.cancelled()) return std::nullopt;
-  return figures_of(groups, tolerance);
+  if (run.cancelled()) return false;
+  result.surface_to_mesh = figures_of(groups, tolerance);
+  result.open_surface_to_mesh = figures_of(open, tolerance);
+  result.in_cracks = result.surface_to_mesh.samples - result.open_surface_to_mesh.samples;
+  return true;
 }
 
 // From the mesh's samples to the surface. Where the gradient does not lead there, or leads far, the nearest of the surface's own
@@ -188,9 +205,7 @@ std::optional<Verification> verify_in_arena(const Mesh& mesh, const Field& field
   const auto surface = sample_surface(field, options.surface_samples, run);
   if (!surface) return std::nullopt;
   const MeshDistance to_mesh(mesh);
-  const auto from_surface = measure_surface_to_mesh(*surface, to_mesh, options.tolerance, run);
-  if (!from_surface) return std::nullopt;
-  result.surface_to_mesh = *from_surface;
+  if (!measure_surface_to_mesh(field, *surface, to_mesh, options.tolerance, run, result)) return std::nullopt;
   const auto from_mesh = MeshToSurface(mesh, field, to_mesh, *surface, options.tolerance).measure(options.tolerance, run);
   if (!from_mesh) return std::nullopt;
   result.mesh_to_surface = *from_mesh;

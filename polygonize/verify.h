@@ -60,6 +60,10 @@ struct Verification {
   DistanceFigures mesh_to_surface;         ///< from vertices, edge midpoints and centroids to {f = kIso}; never less than the
                                            ///< truth (surface_distance.h), infinite if there is no surface
   DistanceFigures surface_to_mesh;         ///< from points of {f = kIso}, even over its area, to the nearest triangle
+  /// The same without the samples in_cracks: those beyond the tolerance that lie in a gap narrower than the tolerance, along
+  /// their normal. Where branches part, gaps start from width 0, so a part of them is finer than any cell.
+  DistanceFigures open_surface_to_mesh;
+  std::size_t in_cracks = 0;
 };
 
 /// nullopt if cancelled. The same at any thread count. Errors: InputError for a tolerance that is not a length, no samples,

@@ -99,6 +99,24 @@ TEST(Verify, AHoleIsSeenFromTheSurface) {
   EXPECT_LT(v.mesh_to_surface.max, 0.002);
 }
 
+// Two boxes a hair apart: a mesh that closes the gap misses what no cell of the tolerance's size can see.
+TEST(Verify, WhatIsInACrackIsToldApart) {
+  BlobTreeBuilder builder;
+  const auto slab = [&](double x) {
+    return builder.add(RotatedBox{Vec3(x, 0, 0), Vec3(0.5), glm::dvec4(1, 0, 0, 0), 0.1, 1});
+  };
+  const double gap = 0.001;
+  const NodeId left = slab(-0.6 - gap / 2), right = slab(0.6 + gap / 2);
+  const Field field(builder.build(builder.add(Union{{left, right}})));
+  const Mesh around = ball_mesh(3, 1.2);   // far from both faces of the gap
+  const VerifyOptions coarse{.tolerance = 0.01, .surface_samples = 20'000}, fine{.tolerance = 0.0005, .surface_samples = 20'000};
+  const Verification v = verified(around, field, coarse);
+  const double in_gap = static_cast<double>(v.in_cracks) / static_cast<double>(v.surface_to_mesh.samples);
+  EXPECT_NEAR(in_gap, 2 * 1.12 / (2 * 8.01), 0.01);   // square metres: two faces with the rounding beside them, of two boxes
+  EXPECT_EQ(v.open_surface_to_mesh.samples + v.in_cracks, v.surface_to_mesh.samples);
+  EXPECT_EQ(verified(around, field, fine).in_cracks, 0u);
+}
+
 TEST(Verify, CrossingTrianglesAreCountedUnlessNotAskedFor) {
   const Field field = testing::sphere_field(1);
   const Mesh mesh = testing::joined(ball_mesh(3, 1, kCenter), ball_mesh(3, 1, kCenter + Vec3(0.5, 0.1, 0.2)));
