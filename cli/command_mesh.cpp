@@ -3,22 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
-#include <memory>
-#include <string_view>
 
 #include "cli/commands.h"
 #include "cli/mesh_figures.h"
+#include "cli/mesh_look.h"
 #include "cli/output_file.h"
-#include "cli/read_text.h"
 #include "cli/units.h"
 #include "polygonize/decimate.h"
 #include "polygonize/mesh_io.h"
 #include "polygonize/polygonize.h"
 #include "polygonize/verify.h"
-#include "raytrace/bark.h"
 
 namespace cambium {
 namespace {
@@ -29,12 +25,6 @@ struct MeshRequest {
   UpAxis up = UpAxis::kZ;
   MeshRecipe mesh;
 };
-
-std::uint8_t srgb_byte(double linear) {
-  const double value = std::clamp(linear, 0.0, 1.0);
-  const double srgb = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * srgb));
-}
 
 UpAxis up_axis(const std::string& name) {
   if (name.empty() || name == "z") return UpAxis::kZ;
@@ -77,37 +67,6 @@ std::deque<OutputFile> make_outputs(const std::filesystem::path& target, const M
   return outputs;
 }
 
-SurfaceColor colours_of(const Bark& bark) {
-  return [&bark](Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal) {
-    const Vec3 albedo = bark.albedo(evaluator, field, p, normal);
-    return std::array<std::uint8_t, 4>{srgb_byte(albedo.x), srgb_byte(albedo.y), srgb_byte(albedo.z), 255};
-  };
-}
-
-std::array<float, 3> as_floats(const Vec3& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-
-bool fits_gltf(std::string_view image) { return image.starts_with("\x89PNG") || image.starts_with("\xff\xd8\xff"); }
-
-/// The barks of a .glb, by order. Where one has an image, images and plain colours take the place of vertex colours, which would
-/// darken them.
-std::vector<MeshMaterial> materials_of(Job& job, bool& has_images) {
-  const std::vector<BarkRecipe>& barks = job.recipe.bark;
-  std::vector<MeshMaterial> materials(barks.size());
-  has_images = false;
-  for (std::size_t i = 0; i < barks.size(); ++i) {
-    if (barks.size() > 1) materials[i].name = fmt::format("bark of order {}", i);
-    if (!barks[i].texture) continue;
-    auto image = std::make_shared<const std::string>(read_text(*barks[i].texture));
-    if (fits_gltf(*image))
-      materials[i].texture = std::move(image), has_images = true;
-    else
-      job.warnings.push_back(barks[i].texture->string() + " is neither PNG nor JPEG: a .glb takes no other images");
-  }
-  for (std::size_t i = 0; i < barks.size() && has_images; ++i)
-    if (!materials[i].texture) materials[i].color = as_floats(barks[i].material.color);
-  return materials;
-}
-
 // Each stage times itself and gives nullopt when interrupted.
 
 std::optional<Polygonized> polygonize_field(Job& job, const Field& field, const PolygonizeOptions& options) {
@@ -130,12 +89,13 @@ std::optional<std::vector<Mesh>> make_levels(Job& job, Mesh& mesh, const std::ve
 }
 
 std::optional<std::vector<MeshAttributes>> make_attributes(Job& job, const std::vector<Mesh>& levels, const Field& field,
-                                                           const MeshAttributeOptions& options) {
+                                                           MeshAttributeOptions options) {
   const StageTimer timer(job.figures, "attributes");
   std::vector<MeshAttributes> attributes;
   for (const Mesh& level : levels) {
     auto made = mesh_attributes(field, level, options, job.run);
     if (!made) return std::nullopt;
+    if (attributes.empty() && made->tile > 0) options.tile = made->tile;  // the texture lies alike on every level
     attributes.push_back(std::move(*made));
   }
   return attributes;
@@ -184,10 +144,8 @@ void write_levels(Job& job, const std::vector<Mesh>& levels, const std::vector<M
 Outcome run_mesh(Job& job) {
   const MeshRequest request = read_request(job);
   std::deque<OutputFile> outputs = make_outputs(job.line.output, request);
-  const Bark bark(load_bark(job.recipe), job.recipe.render.seed);
-  bool has_images = false;
-  std::vector<MeshMaterial> materials;
-  if (request.format == ".glb") materials = materials_of(job, has_images);
+  MeshLook look = mesh_look(job.recipe, request.format == ".glb");
+  job.warnings.insert(job.warnings.end(), look.warnings.begin(), look.warnings.end());
   const auto built = build_tree(job);
   if (!built || job.run.cancelled()) return Outcome::kInterrupted;
   const Field field = compile_field(job, built->tree);
@@ -203,7 +161,8 @@ Outcome run_mesh(Job& job) {
   if (request.format != ".stl") {  // which has no place for any
     MeshAttributeOptions options;
     options.branches = built->branches;
-    if (!has_images) options.color = colours_of(bark);
+    options.aspect = look.aspect;
+    options.color = vertex_colors(look.bark);
     if (request.mesh.occlusion && (request.format == ".glb" || request.format == ".ply")) options.occlusion.emplace();
     auto carried = make_attributes(job, *levels, field, options);
     if (!carried) return Outcome::kInterrupted;
@@ -216,7 +175,7 @@ Outcome run_mesh(Job& job) {
     if (!verified) return Outcome::kInterrupted;
     set_verify_figures(job, *verified, options.tolerance);
   }
-  write_levels(job, *levels, attributes, std::move(materials), request, outputs);
+  write_levels(job, *levels, attributes, std::move(look.materials), request, outputs);
   if (job.run.cancelled()) return Outcome::kInterrupted;
   for (OutputFile& output : outputs) output.commit();
   return Outcome::kDone;

@@ -1,6 +1,7 @@
 // What a mesh looks like: materials for files that take textures along, and the colours of vertices.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "cli/recipe.h"
@@ -14,6 +15,7 @@ struct MeshLook {
   std::vector<MeshMaterial> materials;   ///< by branch order
   Bark bark;                             ///< of the vertex colours
   double aspect = 1;                     ///< width over height of the textures; where they differ, of the first
+  std::vector<std::string> warnings;     ///< images that the file cannot take
 };
 
 /// `takes_textures`: of the file. A PNG or JPEG that the recipe names goes along as it is, and multiplies the vertex colours, so

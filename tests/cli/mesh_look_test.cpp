@@ -67,6 +67,8 @@ TEST(MeshLook, ImagesThatNoMeshTakesBecomeVertexColours) {
   const Recipe recipe = read_recipe(folder.write("a.tree.toml", "[skeleton]\nfile = \"a.skel.json\"\n[bark]\ntexture = \"bark.exr\"\n"), {});
   const MeshLook look = mesh_look(recipe, true);
   EXPECT_FALSE(look.materials.at(0).texture);
+  ASSERT_EQ(look.warnings.size(), 1u);
+  EXPECT_NE(look.warnings[0].find("bark.exr"), std::string::npos);
   EXPECT_GT(color_on(look, 0)[0], color_on(look, 0)[2] + 100);
 }
 
