@@ -78,7 +78,8 @@ class CellSearch {
   /// How many more levels a region of these atoms is expected to be cut by.
   int height(int level, std::size_t count, double smallest) const {
     if (!(rule_.radii > 0) || level == 0) return level;
-    const double limit = smallest < kInfinity ? smallest * (count <= rule_.sparse_atoms ? rule_.sparse_radii : rule_.radii)
+    const double radii = count <= rule_.sparse_atoms ? rule_.sparse_radii : rule_.radii;
+    const double limit = smallest < kInfinity ? std::min(smallest * radii, std::sqrt(rule_.sagitta * smallest))
                                               : std::ldexp(grid_.cell, grid_.levels - 6);
     const double edge = std::ldexp(grid_.cell, level);
     return edge <= limit ? 0 : std::min(level, 1 + std::ilogb(edge / limit));

@@ -165,6 +165,10 @@ Box SurfaceCover::box(std::size_t cell) const {
 
 PrunedField SurfaceCover::field(std::size_t cell) const { return PrunedField(*tree_, *cells_[cell].tape, nullptr, box(cell)); }
 
+PrunedField SurfaceCover::cube_field(std::size_t cell) const {
+  return PrunedField(*tree_, *cells_[cell].tape, nullptr, grid_.box(cells_[cell].place, cells_[cell].level));
+}
+
 std::size_t SurfaceCover::memory_bytes() const {
   std::size_t bytes = sizeof(*this) + cells_.capacity() * sizeof(Cell) + stores_.capacity() * sizeof(stores_[0]);
   for (const auto& store : stores_) bytes += store->memory_bytes();
@@ -179,13 +183,14 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
   cover.tree_ = field.tree_;
   if (field.bounds().empty()) return cover;
   // Cells that follow branches are never cut below this: 2^-20 of the whole is below a pixel of any picture of it.
-  cover.grid_ = cell_grid(field.bounds(), options.cell.value_or(longest_edge(field.bounds()) * 0x1p-19));
+  cover.grid_ = cell_grid(field.bounds(), options.cell.value_or(options.unit.value_or(longest_edge(field.bounds()) * 0x1p-19)));
   CellRule rule;
   rule.task_height = 4;
   if (!options.cell) {
     rule.radii = options.cell_radii;
     rule.sparse_radii = options.sparse_radii;
     rule.sparse_atoms = options.sparse_atoms;
+    rule.sagitta = options.sagitta;
   }
   ProgressMeter progress(run, "covering the surface");
   tbb::task_arena arena(run.threads > 0 ? run.threads : tbb::task_arena::automatic);

@@ -20,6 +20,10 @@ struct CoverOptions {
   double cell_radii = 1.6;
   double sparse_radii = 8;
   std::size_t sparse_atoms = 4;
+  /// And nowhere more than sqrt(sagitta * smallest active radius), metres.
+  double sagitta = kInfinity;
+  /// Cells that follow the branches have this edge times a power of two; unset: one that divides the field's bounds.
+  std::optional<double> unit;
   /// Where the lengths above would give more, they are raised for all cells: rays get slower, never wrong. With `cell`
   /// set: an error.
   std::size_t max_cells = 60'000'000;
@@ -42,6 +46,11 @@ class SurfaceCover {
   std::optional<std::size_t> find(const Vec3& p) const;
   /// Exact inside box(cell). Valid while the cover lives. Cheap; no allocation.
   PrunedField field(std::size_t cell) const;
+  /// The cube that the cell is of its grid, and a field exact in all of it.
+  PrunedField cube_field(std::size_t cell) const;
+  const CellGrid& grid() const { return grid_; }
+  const CellPlace& place(std::size_t cell) const { return cells_[cell].place; }
+  int level(std::size_t cell) const { return cells_[cell].level; }
   /// Of everything it holds, the Field not counted.
   std::size_t memory_bytes() const;
   std::size_t tape_count() const { return tape_count_; }

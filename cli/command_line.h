@@ -25,6 +25,8 @@ struct CommandLine {
   std::string voxel;                         ///< mesh, volume
   std::string tolerance, max_triangles;      ///< mesh
   std::string lod, up;                       ///< mesh
+  std::optional<int> min_sides;              ///< mesh
+  bool preview = false;                      ///< mesh
   bool verify = false, no_ao = false;        ///< mesh
   std::string kind;                          ///< volume
   std::string size;                          ///< render

@@ -47,7 +47,9 @@ MeshRequest read_request(const Job& job) {
     options.tolerance = parse_positive_length(line.tolerance, {"--tolerance"});
     options.voxel.reset();
   }
-  if (!line.max_triangles.empty()) options.max_triangles = parse_count(line.max_triangles, {"--max-triangles"});
+  if (line.min_sides) options.min_sides = *line.min_sides;
+  if (line.preview) options.preview = true;
+  if (!line.max_triangles.empty()) request.mesh.lod = {parse_count(line.max_triangles, {"--max-triangles"})};
   if (!line.lod.empty()) request.mesh.lod = parse_levels(line.lod, {"--lod"});
   if (line.no_ao) request.mesh.occlusion = false;
   return request;
@@ -170,7 +172,7 @@ Outcome run_mesh(Job& job) {
   }
   if (job.line.verify) {
     VerifyOptions options;
-    options.tolerance = request.mesh.polygonize.tolerance.value_or(0);
+    options.tolerance = made->report.tolerance;
     const auto verified = verify_levels(job, *levels, field, options);
     if (!verified) return Outcome::kInterrupted;
     set_verify_figures(job, *verified, options.tolerance);

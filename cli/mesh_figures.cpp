@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace cambium {
 namespace {
 
@@ -28,6 +30,7 @@ std::string level_name(std::size_t level, std::size_t levels) {
   return levels > 1 ? fmt::format("level {} ", level) : std::string("the mesh ");
 }
 
+constexpr std::size_t kListedPlaces = 100;
 constexpr double kWithin = 0.999;   // of the samples; the rest may be twice as far off
 
 }  // namespace
@@ -49,13 +52,17 @@ void set_level_figures(Job& job, const std::vector<Mesh>& levels, const std::vec
 
 void set_polygonize_figures(Job& job, const PolygonizeReport& report) {
   job.figures.set("components", report.components);
-  job.figures.set("voxel", report.voxel);
+  if (report.tolerance > 0) job.figures.set("tolerance", report.tolerance);
+  job.figures.set("smallest_cell", report.smallest_cell);
+  job.figures.set("largest_cell", report.largest_cell);
   job.figures.set("cells", report.cells);
-  job.figures.set("thin_primitives", report.thin_primitives);
-  job.figures.set("thin_length", report.thin_length);
-  job.figures.set("thinnest_radius", report.thinnest_radius);
-  job.figures.set("ambiguous_faces", report.ambiguous_faces);
-  job.figures.set("largest_distance", report.largest_distance);
+  job.figures.set("rounds", report.rounds);
+  job.figures.set("closed_voids", report.closed_voids);
+  job.figures.set("uncertain", report.uncertain.size());
+  Json places = Json::array();
+  for (std::size_t i = 0; i < std::min(report.uncertain.size(), kListedPlaces); ++i)
+    places.push_back(Json::array({report.uncertain[i].x, report.uncertain[i].y, report.uncertain[i].z}));
+  if (!report.uncertain.empty()) job.figures.set("uncertain_at", places);
 }
 
 void set_verify_figures(Job& job, const std::vector<Verification>& levels, double tolerance) {

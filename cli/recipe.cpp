@@ -229,8 +229,9 @@ const KeyRule<MeshRecipe> kMeshKeys[] = {
      }},
     {"max_triangles",
      [](const RecipeValue& v, MeshRecipe& m) {
-       m.polygonize.max_triangles = static_cast<std::size_t>(v.integer(1, kLargestInteger));
+       m.lod = {static_cast<std::size_t>(v.integer(1, kLargestInteger))};
      }},
+    {"min_sides", [](const RecipeValue& v, MeshRecipe& m) { m.polygonize.min_sides = static_cast<double>(v.integer(4, 64)); }},
     {"lod", read_levels},
     {"occlusion", [](const RecipeValue& v, MeshRecipe& m) { m.occlusion = v.flag(); }},
 };

@@ -1,6 +1,6 @@
 #include "polygonize/crease_point.h"
 
-#include "polygonize/qef.h"
+#include "polygonize/symmetric_eigen.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "blobtree/cell_grid.h"
-#include "polygonize/cell_blocks.h"
 
 #include <cstdint>
 
 namespace cambium {
+
+inline constexpr int kBlockBits = 3;
+inline constexpr int kBlockCells = 1 << kBlockBits;             ///< voxels along a block's edge
+inline constexpr int kCoordinateBits = 21;                      ///< of a voxel, per axis
 
 struct Lattice {
   double voxel = 0;      ///< metres

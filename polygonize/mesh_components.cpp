@@ -47,18 +47,23 @@ void remove_vertices(Mesh& mesh, const std::vector<bool>& gone) {
     if (!gone[t[0]]) mesh.triangles[triangles++] = {place[t[0]], place[t[1]], place[t[2]]};
   }
   mesh.triangles.resize(triangles);
+  std::size_t creases = 0;
+  for (const auto& c : mesh.creases) {
+    if (!gone[c[0]]) mesh.creases[creases++] = {place[c[0]], place[c[1]]};
+  }
+  mesh.creases.resize(creases);
 }
 
 }  // namespace
 
-std::optional<ComponentReport> close_small_voids(Mesh& mesh, double smallest_void, const RunOptions& run) {
+std::optional<ComponentReport> close_thin_voids(Mesh& mesh, double thickness, const RunOptions& run) {
   DisjointSets sets(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (i % kPollEvery == 0 && run.cancelled()) return std::nullopt;
     sets.join(mesh.triangles[i][0], mesh.triangles[i][1]);
     sets.join(mesh.triangles[i][0], mesh.triangles[i][2]);
   }
-  std::vector<double> volume(mesh.positions.size(), 0.0);   // at roots
+  std::vector<double> volume(mesh.positions.size(), 0.0), area(mesh.positions.size(), 0.0);   // at roots
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (i % kPollEvery == 0 && run.cancelled()) return std::nullopt;
     const auto& t = mesh.triangles[i];
@@ -66,12 +71,13 @@ std::optional<ComponentReport> close_small_voids(Mesh& mesh, double smallest_voi
     const Vec3& from = mesh.positions[root];   // near the component, so that small volumes keep their digits
     volume[root] += glm::dot(mesh.positions[t[0]] - from,
                              glm::cross(mesh.positions[t[1]] - from, mesh.positions[t[2]] - from)) / 6;
+    area[root] += glm::length(glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]])) / 2;
   }
   ComponentReport report;
   std::vector<bool> gone(mesh.positions.size(), false);
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
     const std::uint32_t root = sets.root(v);
-    gone[v] = volume[root] < 0 && volume[root] > -smallest_void;
+    gone[v] = volume[root] < 0 && -2 * volume[root] < thickness * area[root];
     if (root == v) ++(gone[v] ? report.closed_voids : report.components);
   }
   if (report.closed_voids > 0) remove_vertices(mesh, gone);

@@ -14,9 +14,9 @@ struct ComponentReport {
   std::size_t closed_voids = 0;    ///< that were removed
 };
 
-/// Removes every component that encloses a void (negative volume) of less than `smallest_void` cubic metres: where two branches
-/// meet in a crevice narrower than a cell, lone outside corners between them would leave bubbles in the wood. What remains
-/// keeps its order. nullopt, with the mesh left as it was, if cancelled. Cost: about linear in triangles.
-std::optional<ComponentReport> close_small_voids(Mesh& mesh, double smallest_void, const RunOptions& run);
+/// Removes every component that encloses a void (negative volume) whose mean thickness, twice its volume over its area, is below
+/// `thickness` metres: where two branches meet in a crevice narrower than a cell, lone outside corners between them would
+/// leave bubbles in the wood. What remains keeps its order. nullopt, with the mesh left as it was, if cancelled. Cost: about linear in triangles.
+std::optional<ComponentReport> close_thin_voids(Mesh& mesh, double thickness, const RunOptions& run);
 
 }  // namespace cambium

@@ -1,200 +1,183 @@
 #include "polygonize/polygonize.h"
 
-#include "blobtree/cell_search.h"
 #include "blobtree/input_error.h"
 #include "blobtree/progress_meter.h"
-#include "polygonize/block_contour.h"
-#include "polygonize/cell_blocks.h"
 #include "polygonize/lattice.h"
 #include "polygonize/mesh_components.h"
-#include "polygonize/voxel_choice.h"
+#include "polygonize/patch_polygons.h"
+#include "polygonize/thinnest_radius.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <mutex>
 
 namespace cambium {
 namespace {
 
-using Contours = std::vector<std::unique_ptr<BlockContour>>;
+constexpr std::size_t kMostRounds = 12;
+constexpr std::size_t kMostCells = 400'000'000;
+constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge
+// Cells of sqrt(kSagitta tolerance radius) are about as large as keeps their polygons within the tolerance: the rest is refined.
+// From 5 to 16 the poplar takes 5.0 to 3.6 million triangles at 0.5 mm, but as many more rounds.
+constexpr double kSagitta = 8;
+constexpr int kFinestHalvings = 19;   // of the field's bounds
 
-// Every block that holds the surface, in Morton order.
-struct Survey {
-  bool cancelled = false;
-  bool too_many = false;               // stopped early: more triangles than `enough`
-  std::size_t triangles = 0;
-  Contours blocks;
+struct Plan {
+  LeafRule leaves;
+  CoverOptions cover;
+  int finer = 0;
+  double tolerance = 0;   // infinite where cells are given
 };
 
-Survey survey(const Field& field, const Lattice& lattice, const PolygonizeOptions& options, bool count_only,
-              std::size_t enough, const RunOptions& run) {
-  Survey result;
-  std::mutex mutex;
-  std::atomic<std::size_t> triangles{0};
-  std::atomic<bool> stop{false};
-  tbb::enumerable_thread_specific<BlockContourer> contourers([&] { return BlockContourer(lattice); });
-  ProgressMeter progress(run, count_only ? "counting cells" : "finding the surface");
-  const auto visit = [&](Evaluator& evaluator, const PrunedField& pruned, const CellPlace& place) {
-    BlockContourer& contourer = contourers.local();
-    auto block = std::make_unique<BlockContour>();
-    contourer.find_cells(evaluator, pruned, place, *block);
-    if (block->cells.masks.empty()) return;
-    const std::size_t so_far = triangles.fetch_add(2 * block->owned_crossings) + 2 * block->owned_crossings;
-    if (so_far > enough) stop = true;
-    if (count_only || stop) return;
-    contourer.place_vertices(evaluator, pruned, options, *block);
-    const std::lock_guard lock(mutex);
-    result.blocks.push_back(std::move(block));
-  };
-  const bool complete = visit_cells(field, lattice.blocks, Wanted::kSurface, visit, run, progress, &stop);
-  result.triangles = triangles;
-  result.too_many = stop;
-  result.cancelled = !complete && !stop;
-  if (run.cancelled()) result.cancelled = true;
-  if (complete) {
-    tbb::parallel_sort(result.blocks.begin(), result.blocks.end(), [](const auto& a, const auto& b) {
-      return morton_key(a->cells.place) < morton_key(b->cells.place);
-    });
+Plan make_plan(const Field& field, const PolygonizeOptions& options) {
+  const Vec3 size = field.bounds().size();
+  const double across = glm::length(size);
+  Plan plan;
+  plan.cover.max_cells = kMostCells;
+  if (options.voxel) {
+    plan.tolerance = kInfinity;
+    plan.finer = 3;
+    plan.leaves.radii = 0;
+    plan.leaves.shortest_gap = *options.voxel;
+    plan.cover.cell = *options.voxel * 8;
+    return plan;
   }
-  return result;
+  const double thinnest = thinnest_radius(field);
+  plan.tolerance = options.tolerance.value_or(std::max(across / 20000, std::isfinite(thinnest) ? thinnest / 8 : across / 1000));
+  double sides = options.min_sides;
+  if (options.preview) plan.tolerance *= 16, sides = std::min(sides, 4.0);
+  plan.leaves.radii = kCellsAround / sides;
+  plan.leaves.sagitta = kSagitta * plan.tolerance;
+  plan.leaves.longest = across / 16;
+  plan.leaves.shortest_gap = 2 * plan.tolerance;
+  // Leaves halve from one that is just right for the thinnest twig, of which there is most, down to a quarter of the tolerance.
+  double unit = std::isfinite(thinnest) ? plan.leaves.edge(thinnest) : plan.leaves.longest;
+  const double finest = std::max(plan.tolerance / 4, std::max({size.x, size.y, size.z}) * std::ldexp(1.0, -kFinestHalvings));
+  while (unit / 2 >= finest) unit /= 2;
+  plan.cover.unit = unit;
+  plan.cover.cell_radii = 3.2;
+  plan.cover.sagitta = 64 * plan.leaves.sagitta;
+  return plan;
 }
 
-// How well a pair of triangles does: shape first, then how little it bends across the diagonal.
-double diagonal_score(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {   // diagonal a-c
-  const auto quality = [](const Vec3& p, const Vec3& q, const Vec3& r, Vec3& normal) {
-    normal = glm::cross(q - p, r - p);
-    const double doubled_area = glm::length(normal);
-    const double longest = std::max({glm::dot(q - p, q - p), glm::dot(r - q, r - q), glm::dot(p - r, p - r)});
-    if (!(doubled_area > 0)) return 0.0;
-    normal /= doubled_area;
-    return doubled_area / longest;
-  };
-  Vec3 first, second;
-  const double worst = std::min(quality(a, b, c, first), quality(a, c, d, second));
-  return worst * (1.1 + glm::dot(first, second));
+// The larger leaves of polygons that are too far from the surface.
+std::vector<std::uint32_t> leaves_to_refine(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges,
+                                            const std::vector<float>& errors, double tolerance) {
+  std::vector<std::uint32_t> leaves;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!(errors[i] > tolerance)) continue;
+    int largest = 0;
+    for (const std::uint32_t leaf : edges[i].leaves) largest = std::max<int>(largest, tree.leaves()[leaf].level);
+    if (largest == 0) continue;
+    for (const std::uint32_t leaf : edges[i].leaves)
+      if (tree.leaves()[leaf].level == largest) leaves.push_back(leaf);
+  }
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
 }
 
-void append_triangles(const Quad& q, const std::vector<Vec3>& positions, std::array<std::uint32_t, 3>* out) {
-  const Vec3 &a = positions[q[0]], &b = positions[q[1]], &c = positions[q[2]], &d = positions[q[3]];
-  if (diagonal_score(a, b, c, d) >= diagonal_score(b, c, d, a)) {
-    out[0] = {q[0], q[1], q[2]};
-    out[1] = {q[0], q[2], q[3]};
-  } else {
-    out[0] = {q[1], q[2], q[3]};
-    out[1] = {q[1], q[3], q[0]};
+/// An octree fine enough, and what was contoured on it.
+struct Contoured {
+  SurfaceOctree tree;
+  Contour contour;
+  BalancedVertices balanced;
+  std::size_t rounds = 0;
+};
+
+/// Edges and patches of the octree, which is cut where they would not make a manifold. nullopt if cancelled.
+std::optional<Contour> find_topology(SurfaceOctree& tree, const SurfaceCover& cover, const RunOptions& run) {
+  for (;;) {
+    auto found = crossed_minimal_edges(tree, run);
+    if (!found) return std::nullopt;
+    if (!found->to_split.empty()) {
+      if (!tree.split(cover, std::move(found->to_split), run)) return std::nullopt;
+      continue;
+    }
+    auto patches = find_patches(tree, found->edges, run);
+    if (!patches) return std::nullopt;
+    if (patches->to_split.empty()) return Contour{std::move(found->edges), std::move(*patches), {}, {}};
+    if (!tree.split(cover, std::move(patches->to_split), run)) return std::nullopt;
   }
 }
 
-// Copies the vertices that the connectivity settled on into the mesh and gives back the block's share of memory.
-void take_vertices(BlockContour& block, std::size_t index, const CellConnectivity& connectivity, Mesh& mesh,
-                   double& largest_distance) {
-  std::size_t standard = 0, flipped = 0;
-  block.cells.for_each([&](int cell, int, int, int) {
-    const int mask = block.cells.masks[cell], face = connectivity.flipped_face(index, cell);
-    const std::uint32_t first = connectivity.first_vertex(index, cell);
-    const PatchVertex* from = face == kNoFace ? &block.vertices[standard] : &block.flipped[flipped];
-    for (std::uint32_t i = 0; i < cell_cycles(mask, face).count; ++i) {
-      mesh.positions[first + i] = from[i].position;
-      mesh.normals[first + i] = from[i].normal;
-      if (!mesh.colors.empty()) mesh.colors[first + i] = from[i].color;
-      largest_distance = std::max(largest_distance, static_cast<double>(from[i].distance));
-    }
-    standard += cell_cycles(mask).count;
-    if (const int own = flippable_face(mask); own != kNoFace) flipped += cell_cycles(mask, own).count;
-  });
-  block.vertices = {};
-  block.flipped = {};
-}
-
-std::optional<Polygonized> assemble(Contours blocks, double voxel, bool colors, const RunOptions& run) {
-  ProgressMeter progress(run, "joining cells");
-  std::vector<const CellBlock*> cells;
-  cells.reserve(blocks.size());
-  for (const auto& block : blocks) cells.push_back(&block->cells);
-  const CellConnectivity connectivity(cells);
-  if (run.cancelled()) return std::nullopt;
-
-  Polygonized result;
-  Mesh& mesh = result.mesh;
-  mesh.positions.resize(connectivity.vertex_count());
-  mesh.normals.resize(connectivity.vertex_count());
-  if (colors) mesh.colors.resize(connectivity.vertex_count());
-  std::vector<double> distances(blocks.size(), 0.0);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
-    if (!run.cancelled()) take_vertices(*blocks[b], b, connectivity, mesh, distances[b]);
-  });
-  progress.add(0.4);
-
-  std::vector<std::size_t> first_triangle(blocks.size() + 1, 0);
-  for (std::size_t b = 0; b < blocks.size(); ++b) first_triangle[b + 1] = first_triangle[b] + 2 * blocks[b]->owned_crossings;
-  mesh.triangles.resize(first_triangle.back());
-  tbb::enumerable_thread_specific<std::vector<Quad>> scratch;
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
-    if (run.cancelled()) return;
-    std::vector<Quad>& quads = scratch.local();
-    connectivity.quads(b, quads);
-    for (std::size_t i = 0; i < quads.size(); ++i) {
-      append_triangles(quads[i], mesh.positions, &mesh.triangles[first_triangle[b] + 2 * i]);
-    }
-  });
-  if (run.cancelled()) return std::nullopt;
-  progress.add(0.4);
-
-  result.report.cells = connectivity.cell_count();
-  result.report.ambiguous_faces = connectivity.flipped_faces();
-  const auto components = close_small_voids(mesh, voxel * voxel * voxel, run);
-  if (!components) return std::nullopt;
-  result.report.components = components->components;
-  result.report.closed_voids = components->closed_voids;
-  for (const double distance : distances) result.report.largest_distance = std::max(result.report.largest_distance, distance);
+// Contours, measures, and cuts the leaves of polygons that are off, until none is.
+std::optional<Contoured> contour(const SurfaceCover& cover, const Plan& plan, const RunOptions& run) {
+  auto tree = SurfaceOctree::build(cover, plan.finer, plan.leaves, run);
+  if (!tree) return std::nullopt;
+  Contoured result{std::move(*tree), {}, {}, 0};
+  ProgressMeter progress(run, "contouring");
+  progress.add(0.3);
+  for (;; ++result.rounds) {
+    auto next = find_topology(result.tree, cover, run);
+    if (!next) return std::nullopt;
+    const std::vector<std::uint32_t> earlier = earlier_edges(result.tree, next->edges, result.contour.edges);
+    auto crossings = find_crossings(result.tree, cover, next->edges, earlier, result.contour.crossings, run);
+    if (!crossings) return std::nullopt;
+    next->crossings = std::move(*crossings);
+    auto placed = place_vertices(result.tree, cover, *next, earlier, result.contour, run);
+    if (!placed) return std::nullopt;
+    next->placed = std::move(*placed);
+    result.contour = std::move(*next);
+    result.balanced = balance_vertices(result.tree, result.contour, plan.tolerance);
+    const auto leaves = leaves_to_refine(result.tree, result.contour.edges, result.balanced.errors, plan.tolerance);
+    progress.add(std::ldexp(0.35, -static_cast<int>(result.rounds)));
+    if (leaves.empty() || result.rounds >= kMostRounds) break;
+    if (!result.tree.split(cover, leaves, run)) return std::nullopt;
+  }
   progress.finish();
   return result;
 }
 
-std::optional<Polygonized> polygonize_in_arena(const Field& field, const PolygonizeOptions& options, const RunOptions& run) {
-  const AtomSummary atoms = summarise_atoms(field);
-  double voxel = choose_voxel(field, atoms, options);
-  const bool free_choice = !options.voxel && !options.tolerance;
-  if (options.max_triangles && *options.max_triangles == 0) throw InputError({}, "a limit of 0 triangles", "at least 1");
-  std::optional<std::size_t> limit = options.max_triangles;
-  if (!limit && free_choice) limit = kMostTriangles;
-  // Start near a limit and not far beyond it: the estimate counts overlaps twice, so it may be cut by half.
-  if (limit) voxel = std::max(voxel, 0.5 * voxel_for_triangles(atoms.area, static_cast<double>(*limit)));
-
-  bool count_first = limit && 3 * expected_triangles(atoms.area, voxel) > static_cast<double>(*limit);
-  Polygonized result;
-  if (!field.bounds().empty()) {
-    for (;;) {
-      const Lattice lattice = make_lattice(field.bounds(), voxel);
-      constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-      const std::size_t enough = limit && *limit < kAll / 4 ? 4 * *limit : kAll;
-      Survey found = survey(field, lattice, options, count_first, enough, run);
-      if (found.cancelled) return std::nullopt;
-      if (limit && found.triangles > *limit) {
-        // Whether a survey stops early depends on the total alone, so every thread count takes the same steps.
-        const double ratio = static_cast<double>(found.triangles) / static_cast<double>(*limit);
-        voxel *= found.too_many ? 2.0 : std::max(1.02, 1.01 * std::sqrt(ratio));
-        count_first = true;
-      } else if (count_first) {
-        count_first = false;
-      } else {
-        auto assembled = assemble(std::move(found.blocks), voxel, static_cast<bool>(options.color), run);
-        if (!assembled) return std::nullopt;
-        result = std::move(*assembled);
-        break;
-      }
-    }
+void report_cells(const Contoured& made, PolygonizeReport& report) {
+  const SurfaceOctree& tree = made.tree;
+  report.rounds = made.rounds;
+  report.cells = made.contour.patches.patches.size();
+  report.relinked_faces = made.contour.patches.relinked_faces;
+  int finest = kMostLevels, coarsest = 0;
+  for (const Patch& patch : made.contour.patches.patches) {
+    const int level = tree.leaves()[patch.leaf].level;
+    finest = std::min(finest, level), coarsest = std::max(coarsest, level);
   }
-  result.report.voxel = voxel;
-  report_thin_primitives(field, result.report);
+  if (report.cells > 0) {
+    report.smallest_cell = std::ldexp(tree.grid().cell, finest);
+    report.largest_cell = std::ldexp(tree.grid().cell, coarsest);
+  }
+  for (const float error : made.balanced.errors) report.largest_error = std::max(report.largest_error, static_cast<double>(error));
+  for (const std::uint32_t leaf : made.contour.patches.crowded) report.uncertain.push_back(tree.box(tree.leaves()[leaf]).center());
+}
+
+std::optional<Polygonized> polygonize_in_arena(const Field& field, const PolygonizeOptions& options, const RunOptions& run) {
+  if (options.voxel) require_length(*options.voxel, "voxel");
+  if (options.tolerance) require_length(*options.tolerance, "tolerance");
+  if (options.voxel && options.tolerance) throw InputError({}, "both a voxel and a tolerance", "one of them");
+  if (!(options.min_sides >= 4 && options.min_sides <= 64)) {
+    throw InputError({}, fmt::format("{:g} sides at least", options.min_sides), "4 to 64");
+  }
+  Polygonized result;
+  if (field.bounds().empty()) return result;
+  const Plan plan = make_plan(field, options);
+  const auto cover = cover_surface(field, plan.cover, run);
+  if (!cover) return std::nullopt;
+  const auto made = contour(*cover, plan, run);
+  if (!made) return std::nullopt;
+  ProgressMeter progress(run, "joining polygons");
+  auto built = build_polygons(made->tree, *cover, made->contour, made->balanced.positions, run);
+  if (!built) return std::nullopt;
+  progress.add(0.7);
+  result.mesh = std::move(built->mesh);
+  PolygonizeReport& report = result.report;
+  if (!options.voxel) report.tolerance = plan.tolerance;
+  report_cells(*made, report);
+  report.face_vertices = built->face_vertices;
+  report.edge_vertices = built->edge_vertices;
+  const auto components = close_thin_voids(result.mesh, plan.leaves.shortest_gap, run);
+  if (!components) return std::nullopt;
+  report.components = components->components;
+  report.closed_voids = components->closed_voids;
+  progress.finish();
   return result;
 }
 

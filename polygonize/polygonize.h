@@ -1,34 +1,36 @@
-// Field to closed 2-manifold mesh: manifold dual contouring (Ju et al. 2002; Schaefer, Ju, Warren 2007) on uniform cells.
+// Field to closed 2-manifold mesh within a stated tolerance: adaptive manifold dual contouring (Ju et al. 2002; Schaefer, Ju,
+// Warren 2007) with vertices on known creases and polygons that cannot cross each other (Ju & Udeshi 2006).
 #pragma once
 
 #include "blobtree/field.h"
 #include "blobtree/run_options.h"
 #include "polygonize/mesh.h"
 
-#include <array>
-#include <functional>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace cambium {
 
 struct PolygonizeOptions {
-  std::optional<double> voxel;              ///< cell edge in metres; unset: chosen from the thinnest twig
-  std::optional<double> tolerance;          ///< metres; a vertex is within half a cell, so cells are twice this
-  std::optional<std::size_t> max_triangles; ///< coarsens until it holds
-  /// Colour of a surface point (sRGB); unset: no vertex colours. Called from many threads.
-  std::function<std::array<std::uint8_t, 4>(Evaluator&, const PrunedField&, const Vec3& p, const Vec3& normal)> color;
+  std::optional<double> tolerance{};        ///< metres, both ways; unset: an eighth of the thinnest radius, or 1/20000 of the whole
+  std::optional<double> voxel{};            ///< all cells of this edge, metres, whatever that misses; not with tolerance
+  double min_sides = 6;                     ///< around the thinnest twig, at least; 4 to 64
+  bool preview = false;                     ///< 16 times the tolerance and at most four sides: a first look
 };
 
 struct PolygonizeReport {
-  double voxel = 0;
+  double tolerance = 0;                     ///< aimed at; 0 with a given voxel
+  double smallest_cell = 0, largest_cell = 0;   ///< that hold the surface, metres
   std::size_t cells = 0;                    ///< that hold the surface
+  std::size_t rounds = 0;                   ///< of refinement
   std::size_t components = 0;
-  std::size_t closed_voids = 0;             ///< cavities of less than a cell's volume, left out
-  std::size_t thin_primitives = 0;          ///< primitives thinner than a cell: their twigs may be broken or missing
-  double thin_length = 0;                   ///< metres of them (by support box diagonal)
-  double thinnest_radius = 0;
-  std::size_t ambiguous_faces = 0;          ///< resolved to keep the mesh manifold
-  double largest_distance = 0;              ///< of a vertex from the surface, metres, by |f - c|/|grad f|
+  std::size_t closed_voids = 0;             ///< cavities thinner than the narrowest gap that is resolved, left out
+  std::size_t face_vertices = 0, edge_vertices = 0;   ///< added so that no polygons cross
+  std::size_t relinked_faces = 0;           ///< that join their inside corners so that the mesh is a manifold
+  double largest_error = 0;                 ///< of a polygon's middle, metres, as contouring measured it
+  /// Where sheets are closer than the smallest cell allowed there, so that the mesh may join what is apart.
+  std::vector<Vec3> uncertain;
 };
 
 struct Polygonized {
@@ -36,8 +38,8 @@ struct Polygonized {
   PolygonizeReport report;
 };
 
-/// nullopt if cancelled. Deterministic at any thread count. Errors: InputError for voxel/tolerance <= 0 or a grid that is too
-/// fine to index. Memory: proportional to the surface.
+/// nullopt if cancelled. Deterministic at any thread count. Errors: InputError for lengths that are none, both a voxel and a
+/// tolerance, or cells too fine to index. Memory: about 250 bytes a vertex.
 std::optional<Polygonized> polygonize(const Field& field, const PolygonizeOptions& options, const RunOptions& run);
 
 }  // namespace cambium

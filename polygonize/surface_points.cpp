@@ -2,7 +2,7 @@
 
 #include "blobtree/cell_search.h"
 #include "blobtree/progress_meter.h"
-#include "polygonize/voxel_choice.h"
+#include "polygonize/thinnest_radius.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -125,7 +125,7 @@ class PointRun final : public CellRun {
 
 std::optional<std::vector<SurfacePoint>> surface_points(const Field& field, const Lattice& lattice, const RunOptions& run) {
   // Cells from a block of voxels down to what the thinnest twig asks for.
-  const double thinnest = summarise_atoms(field).thinnest_radius;
+  const double thinnest = thinnest_radius(field);
   const double block = lattice.voxel * kBlockCells;
   double smallest = block;
   while (smallest > kCellRadii * thinnest && smallest > kFinest * block) smallest /= 2;

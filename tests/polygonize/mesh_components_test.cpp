@@ -23,20 +23,22 @@ void add_tetrahedron(Mesh& mesh, const Vec3& at, double size, bool inward) {
   }
 }
 
-TEST(MeshComponents, OnlySmallVoidsAreRemoved) {
+TEST(MeshComponents, OnlyThinVoidsAreRemoved) {
   Mesh mesh;
   const Vec3 far(1000, 2000, -500);
   add_tetrahedron(mesh, far, 10, false);
   add_tetrahedron(mesh, far + 1.0, 0.01, true);    // a bubble
   add_tetrahedron(mesh, far + 2.0, 2, true);       // a hollow worth keeping
   add_tetrahedron(mesh, far + 20.0, 0.01, false);  // a bead
-  const auto report = close_small_voids(mesh, 1e-3, {});
+  mesh.creases = {{0, 1}, {4, 5}, {8, 9}};
+  const auto report = close_thin_voids(mesh, 0.1, {});
   ASSERT_TRUE(report.has_value());
   EXPECT_EQ(report->closed_voids, 1u);
   EXPECT_EQ(report->components, 3u);
   const auto checks = testing::check_mesh(mesh);
   EXPECT_TRUE(checks.closed_manifold()) << checks;
   EXPECT_EQ(checks.components, 3u);
+  EXPECT_EQ(mesh.creases, (std::vector<std::array<std::uint32_t, 2>>{{0, 1}, {4, 5}}));   // the bubble's is gone, the hollow's moved
   ASSERT_EQ(mesh.colors.size(), 12u);
   EXPECT_EQ(mesh.colors[4][0], 8);   // the hollow moved up, with its colours
   EXPECT_EQ(mesh.normals.size(), 12u);
@@ -48,9 +50,9 @@ TEST(MeshComponents, CancelledItLeavesTheMeshAlone) {
   const std::atomic<bool> cancel{true};
   RunOptions run;
   run.cancel = &cancel;
-  EXPECT_FALSE(close_small_voids(mesh, 1, run).has_value());
+  EXPECT_FALSE(close_thin_voids(mesh, 1, run).has_value());
   EXPECT_EQ(mesh.triangles.size(), 4u);
-  EXPECT_EQ(close_small_voids(mesh, 1, {})->closed_voids, 1u);
+  EXPECT_EQ(close_thin_voids(mesh, 1, {})->closed_voids, 1u);
   EXPECT_TRUE(mesh.triangles.empty());
 }
 

@@ -34,13 +34,11 @@ MeshChecks expect_sound(const Field& field, const Polygonized& made) {
   EXPECT_EQ(checks.degenerate_triangles, 0u) << checks;
   EXPECT_EQ(checks.components, made.report.components);
   EXPECT_EQ(made.mesh.normals.size(), made.mesh.positions.size());
-  EXPECT_LE(made.report.largest_distance, 0.5 * made.report.voxel);
-  EXPECT_LE(made.report.largest_distance, 0.5 * made.report.voxel);
   for (std::size_t i = 0; i < made.mesh.positions.size(); ++i) {
     const Sample sample = field.sample(made.mesh.positions[i]);
     const double slope = glm::length(sample.gradient);
     if (slope > 0) {
-      EXPECT_LE(std::abs(sample.value - kIso) / slope, 0.5 * made.report.voxel + 1e-9) << "vertex " << i;
+      EXPECT_LE(std::abs(sample.value - kIso) / slope, made.report.largest_cell) << "vertex " << i;
     }
     EXPECT_NEAR(glm::length(made.mesh.normals[i]), 1, 1e-4);
   }
@@ -56,7 +54,7 @@ TEST(Polygonize, ASphereIsRoundClosedAndOutward) {
   EXPECT_EQ(checks.inward_components, 0u);
   for (std::size_t i = 0; i < made.mesh.positions.size(); ++i) {
     const Vec3 from_center = made.mesh.positions[i] - Vec3(0.03, -0.02, 0.01);
-    EXPECT_NEAR(glm::length(from_center), 1, 0.04 * made.report.voxel);   // a grazed cell holds its vertex back
+    EXPECT_NEAR(glm::length(from_center), 1, 0.04 * made.report.largest_cell);   // a grazed cell holds its vertex back
     EXPECT_GT(glm::dot(glm::normalize(from_center), Vec3(made.mesh.normals[i])), 0.999);
   }
 }
@@ -94,14 +92,28 @@ TEST(Polygonize, RandomBlobTreesAreManifoldAtAnyCellSize) {
   }
 }
 
-TEST(Polygonize, TwigsThinnerThanACellBreakButStayClosed) {
+TEST(Polygonize, TwigsThinnerThanAGivenCellBreakButStayClosed) {
   const Field field = testing::field_of(Chain{{{Vec3(0, 0, 0), 0.02}, {Vec3(0.7, 1.1, 2.3), 0.01}}, 1});
   const Polygonized made = mesh_of(field, 0.035);
   expect_sound(field, made);
-  EXPECT_EQ(made.report.thin_primitives, 1u);
-  EXPECT_NEAR(made.report.thinnest_radius, 0.01, 1e-12);
-  EXPECT_GT(made.report.thin_length, 2);
   EXPECT_GT(made.report.components, 1u);
+}
+
+TEST(Polygonize, ATwigOnAGreatTrunkHasItsSidesAndTheTrunkLargeCells) {
+  BlobTreeBuilder b;
+  const NodeId trunk = b.add(Chain{{{Vec3(0, 0, 0), 0.3}, {Vec3(0, 0, 3), 0.25}}, 1});
+  const NodeId twig = b.add(Chain{{{Vec3(0, 0, 2), 0.004}, {Vec3(1, 0.3, 2.4), 0.002}}, 1});
+  const Field field(b.build(b.add(Fork{trunk, {{twig, Vec3(0, 0, 2), Vec3(0, 0, 1), 0.003, 0.6}}})));
+  const auto made = polygonize(field, {.tolerance = 0.001}, {});
+  ASSERT_TRUE(made.has_value());
+  const MeshChecks checks = check_mesh(made->mesh);
+  EXPECT_TRUE(checks.closed_manifold()) << checks;
+  EXPECT_EQ(checks.components, 1u);
+  EXPECT_EQ(checks.euler, 2);
+  EXPECT_GT(made->report.largest_cell, 10 * made->report.smallest_cell);
+  double tip = 0;
+  for (const Vec3& p : made->mesh.positions) tip = std::max(tip, p.x);
+  EXPECT_NEAR(tip, 1.002, 0.001);
 }
 
 TEST(Polygonize, VolumeConvergesWithTheSquareOfTheCell) {
@@ -164,50 +176,36 @@ TEST(Polygonize, AThinTwigFarFromTheOriginKeepsItsShape) {
   EXPECT_NEAR(volume / exact, 1, 0.05);
 }
 
-TEST(Polygonize, TheDefaultCellResolvesTheThinnestTwig) {
+TEST(Polygonize, TheDefaultKeepsTheThinnestTwigWhole) {
   const Field field = testing::chain_field();
   const auto made = polygonize(field, {}, {});
   ASSERT_TRUE(made.has_value());
-  EXPECT_NEAR(made->report.voxel, 0.7 * 0.05, 1e-9);
-  EXPECT_EQ(made->report.thin_primitives, 0u);
+  EXPECT_NEAR(made->report.tolerance, 0.05 / 8, 1e-9);
   EXPECT_EQ(check_mesh(made->mesh).components, 1u);
 }
 
-TEST(Polygonize, ToleranceIsHalfACellAndALimitCoarsens) {
+TEST(Polygonize, EveryPolygonIsWithinTheToleranceAndFinerOnesHaveMore) {
   const Field field = testing::chain_field();
-  PolygonizeOptions options;
-  options.tolerance = 0.01;
-  auto made = polygonize(field, options, {});
-  ASSERT_TRUE(made.has_value());
-  EXPECT_EQ(made->report.voxel, 0.02);
-  const std::size_t fine = made->mesh.triangles.size();
-  for (const std::size_t limit : {fine, fine / 3, std::size_t{500}, std::size_t{1}}) {
-    options.max_triangles = limit;
-    made = polygonize(field, options, {});
+  std::size_t last = 0;
+  for (const double tolerance : {0.02, 0.005, 0.001}) {
+    const auto made = polygonize(field, {.tolerance = tolerance}, {});
     ASSERT_TRUE(made.has_value());
-    EXPECT_LE(made->mesh.triangles.size(), limit);
-    if (limit >= 500) {
-      EXPECT_GT(made->mesh.triangles.size(), limit / 3);
-    }
     EXPECT_TRUE(check_mesh(made->mesh).closed_manifold());
+    EXPECT_GT(made->mesh.triangles.size(), last);
+    last = made->mesh.triangles.size();
+    for (const auto& t : made->mesh.triangles) {
+      const Sample s = field.sample((made->mesh.positions[t[0]] + made->mesh.positions[t[1]] + made->mesh.positions[t[2]]) / 3.0);
+      EXPECT_LT(std::abs(s.value - kIso) / glm::length(s.gradient), 1.5 * tolerance);
+    }
   }
 }
 
-TEST(Polygonize, ColoursComeFromTheCallback) {
-  PolygonizeOptions options;
-  options.voxel = 0.2;
-  options.color = [](Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal) {
-    const double value = evaluator.value(field, p);
-    EXPECT_NEAR(value, kIso, 0.05);
-    EXPECT_NEAR(glm::length(normal), 1, 1e-4);
-    return std::array<std::uint8_t, 4>{p.z > 0 ? std::uint8_t(200) : std::uint8_t(10), 1, 2, 255};
-  };
-  const auto made = polygonize(testing::sphere_field(), options, {});
-  ASSERT_TRUE(made.has_value());
-  ASSERT_EQ(made->mesh.colors.size(), made->mesh.positions.size());
-  for (std::size_t i = 0; i < made->mesh.colors.size(); ++i) {
-    EXPECT_EQ(made->mesh.colors[i][0], made->mesh.positions[i].z > 0 ? 200 : 10);
-  }
+TEST(Polygonize, MoreSidesAndAPreviewAreWhatTheySay) {
+  const Field field = testing::chain_field();
+  const auto triangles = [&](const PolygonizeOptions& options) { return polygonize(field, options, {})->mesh.triangles.size(); };
+  const std::size_t plain = triangles({.tolerance = 0.05});
+  EXPECT_GT(triangles({.tolerance = 0.05, .min_sides = 24}), 3 * plain);
+  EXPECT_LT(triangles({.tolerance = 0.001, .preview = true}), triangles({.tolerance = 0.001}) / 4);
 }
 
 TEST(Polygonize, BadLengthsAndGridsTooFineAreInputErrors) {
@@ -220,8 +218,11 @@ TEST(Polygonize, BadLengthsAndGridsTooFineAreInputErrors) {
   options.voxel.reset();
   options.tolerance = -0.1;
   EXPECT_THROW(polygonize(field, options, {}), InputError);
-  options.tolerance.reset();
-  options.max_triangles = 0;
+  options.tolerance = 0.1;
+  options.voxel = 0.1;
+  EXPECT_THROW(polygonize(field, options, {}), InputError);
+  options.voxel.reset();
+  options.min_sides = 2;
   EXPECT_THROW(polygonize(field, options, {}), InputError);
 }
 

@@ -1,0 +1,446 @@
+#include "polygonize/patch_polygons.h"
+
+#include "polygonize/crease_point.h"
+#include "polygonize/groups.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cambium {
+namespace {
+
+constexpr double kSeen = 1e-3;       // of the shorter leaf's edge: how far inside a face two vertices must see each other through it
+constexpr double kFaceMargin = 0.02; // face vertices keep this far inside their faces
+constexpr std::size_t kGrain = 4096;
+
+/// A minimal edge in the frame of its polygon: coordinates along it and across it.
+struct EdgeFrame {
+  int a = 0, b = 1, c = 2;
+  double low = 0, high = 0;          // along a
+  double at_b = 0, at_c = 0;
+
+  EdgeFrame(const SurfaceOctree& tree, const MinimalEdge& edge)
+      : a(edge.axis), b((edge.axis + 1) % 3), c((edge.axis + 2) % 3) {
+    const Vec3 from = edge_point(tree, edge, 0), to = edge_point(tree, edge, 1);
+    low = from[a], high = to[a], at_b = from[b], at_c = from[c];
+  }
+  /// Across, then along.
+  Vec3 local(const Vec3& p) const { return {p[b] - at_b, p[c] - at_c, p[a]}; }
+};
+
+double cross2(const Vec3& p, const Vec3& q) { return p.x * q.y - p.y * q.x; }
+
+/// Height at which the line through the edge meets a triangle (local coordinates), or none.
+std::optional<double> pierced_at(const Vec3& p, const Vec3& q, const Vec3& r) {
+  const double u = cross2(q, r), v = cross2(r, p), w = cross2(p, q);
+  if (!((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0))) return std::nullopt;
+  return (u * p.z + v * q.z + w * r.z) / (u + v + w);
+}
+
+/// Whether the segment p-q passes between the edge and the vertex v within the triangle that they span.
+bool passes(const EdgeFrame& frame, const Vec3& p, const Vec3& q, const Vec3& v) {
+  const double side_p = cross2(v, p), side_q = cross2(v, q);
+  if (!((side_p > 0 && side_q < 0) || (side_p < 0 && side_q > 0))) return false;
+  const Vec3 y = p + (q - p) * (side_p / (side_p - side_q));
+  const double s = (y.x * v.x + y.y * v.y) / (v.x * v.x + v.y * v.y);
+  if (!(s > 0 && s < 1)) return false;
+  return y.z > frame.low + s * (v.z - frame.low) && y.z < frame.high + s * (v.z - frame.high);
+}
+
+/// Both triangles that the diagonal p-r makes of the quad p q r s stay inside the quad's envelope.
+bool diagonal_fits(const EdgeFrame& frame, const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
+  if (const auto height = pierced_at(p, q, r)) return *height > frame.low && *height < frame.high && passes(frame, p, r, s);
+  if (const auto height = pierced_at(p, r, s)) return *height > frame.low && *height < frame.high && passes(frame, p, r, q);
+  return false;
+}
+
+// How well a pair of triangles does: shape first, then how little it bends across the diagonal.
+double diagonal_score(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {   // diagonal a-c
+  const auto quality = [](const Vec3& p, const Vec3& q, const Vec3& r, Vec3& normal) {
+    normal = glm::cross(q - p, r - p);
+    const double doubled_area = glm::length(normal);
+    const double longest = std::max({glm::dot(q - p, q - p), glm::dot(r - q, r - q), glm::dot(p - r, p - r)});
+    if (!(doubled_area > 0)) return 0.0;
+    normal /= doubled_area;
+    return doubled_area / longest;
+  };
+  Vec3 first, second;
+  const double worst = std::min(quality(a, b, c, first), quality(a, c, d, second));
+  return worst * (1.1 + glm::dot(first, second));
+}
+
+/// The polygon's patches in ring order, counter-clockwise seen from outside, each once; quadrant: where each was found first.
+struct Ring {
+  std::array<std::uint32_t, 4> patches{};
+  std::array<std::array<int, 2>, 4> across{};   ///< the quadrants on both sides of the face to the next
+  int count = 0;
+};
+
+Ring ring_of(const MinimalEdge& edge, const std::array<std::uint32_t, 4>& patch_of) {
+  Ring ring;
+  for (int k = 0; k < 4; ++k) {
+    const int q = edge.low_inside ? kRing[k] : kRing[3 - k];
+    const int next = edge.low_inside ? kRing[(k + 1) % 4] : kRing[(6 - k) % 4];
+    if (edge.leaves[q] == edge.leaves[next]) continue;
+    ring.patches[ring.count] = patch_of[q];
+    ring.across[ring.count] = {q, next};
+    ++ring.count;
+  }
+  return ring;
+}
+
+/// The face between the leaves in two neighbouring quadrants: its axis and plane, and where it reaches.
+struct Face {
+  int axis = 0;
+  Box box;             // flat across axis
+  double edge = 0;     // of the smaller leaf
+};
+
+Face face_between(const SurfaceOctree& tree, const MinimalEdge& edge, const EdgeFrame& frame, int q, int next) {
+  const OctreeLeaf &m = tree.leaves()[edge.leaves[q]], &n = tree.leaves()[edge.leaves[next]];
+  const Box p = tree.box(m), r = tree.box(n);
+  Face face;
+  face.axis = ((q ^ next) & 1) ? frame.b : frame.c;
+  face.box = {glm::max(p.lo, r.lo), glm::min(p.hi, r.hi)};
+  face.box.lo[face.axis] = face.box.hi[face.axis] = face.axis == frame.b ? frame.at_b : frame.at_c;
+  face.edge = std::min(tree.edge(m), tree.edge(n));
+  return face;
+}
+
+bool see_each_other(const Face& face, const Vec3& p, const Vec3& q) {
+  const int a = face.axis;
+  const double t = (face.box.lo[a] - p[a]) / (q[a] - p[a]);
+  if (!(t > 0 && t < 1)) return false;
+  const Vec3 y = p + (q - p) * t;
+  const double margin = kSeen * face.edge;
+  for (int k = 1; k < 3; ++k) {
+    const int b = (a + k) % 3;
+    if (!(y[b] > face.box.lo[b] + margin && y[b] < face.box.hi[b] - margin)) return false;
+  }
+  return true;
+}
+
+/// Where two patches that do not see each other meet: one vertex on their face.
+struct FaceVertex {
+  std::array<std::uint32_t, 2> patches{};   // lower first
+  std::uint32_t edge = 0;                   // one of the two minimal edges whose polygons meet there
+  std::uint32_t other_edge = 0;
+  int q = 0, next = 0;                      // quadrants of that edge
+  Vec3 position{0.0};
+  glm::vec3 normal{0.0f};
+  bool crease = false;
+  bool operator<(const FaceVertex& o) const { return std::tie(patches, edge) < std::tie(o.patches, o.edge); }
+};
+
+class PolygonBuilder {
+ public:
+  PolygonBuilder(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<Vec3>& positions)
+      : tree_(tree), cover_(cover), edges_(contour.edges), crossings_(contour.crossings), patches_(contour.patches),
+        placed_(contour.placed), positions_(positions), creases_(crease_edges(contour)) {}
+
+  std::optional<DualMesh> build(const RunOptions& run) {
+    find_faces();
+    if (run.cancelled()) return std::nullopt;
+    place_faces();
+    if (run.cancelled()) return std::nullopt;
+    plan();
+    if (run.cancelled()) return std::nullopt;
+    DualMesh result = write();
+    if (run.cancelled()) return std::nullopt;
+    return result;
+  }
+
+ private:
+  struct Plan {
+    std::uint8_t triangles = 0;
+    bool fan = false;
+    bool other_diagonal = false;
+  };
+
+  const Vec3& position(std::uint32_t patch) const { return positions_[patch]; }
+
+  void find_faces() {
+    std::vector<std::vector<FaceVertex>> parts((edges_.size() + kGrain - 1) / kGrain);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t task) {
+      for (std::size_t i = task * kGrain; i < std::min(edges_.size(), (task + 1) * kGrain); ++i) {
+        const MinimalEdge& edge = edges_[i];
+        const EdgeFrame frame(tree_, edge);
+        const Ring ring = ring_of(edge, patches_.patch_of_quadrant[i]);
+        for (int k = 0; k < ring.count; ++k) {
+          const std::uint32_t p = ring.patches[k], r = ring.patches[(k + 1) % ring.count];
+          const auto [q, next] = ring.across[k];
+          if (see_each_other(face_between(tree_, edge, frame, q, next), position(p), position(r))) continue;
+          FaceVertex face;
+          face.patches = {std::min(p, r), std::max(p, r)};
+          face.edge = static_cast<std::uint32_t>(i);
+          face.q = q, face.next = next;
+          parts[task].push_back(face);
+        }
+      }
+    });
+    for (auto& part : parts) faces_.insert(faces_.end(), part.begin(), part.end());
+    tbb::parallel_sort(faces_.begin(), faces_.end());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < faces_.size(); ++i) {   // each was found from both of its edges
+      if (kept > 0 && faces_[kept - 1].patches == faces_[i].patches) {
+        faces_[kept - 1].other_edge = faces_[i].edge;
+      } else {
+        faces_[kept] = faces_[i];
+        faces_[kept].other_edge = faces_[i].edge;
+        ++kept;
+      }
+    }
+    faces_.resize(kept);
+  }
+
+  void place_faces() {
+    struct Scratch {
+      Evaluator evaluator;
+      ChoiceEvaluator choices;
+    };
+    const auto cell_of = [&](std::size_t i) {
+      const MinimalEdge& edge = edges_[faces_[i].edge];
+      const OctreeLeaf &m = tree_.leaves()[edge.leaves[faces_[i].q]], &n = tree_.leaves()[edge.leaves[faces_[i].next]];
+      return (m.level <= n.level ? m : n).cell;
+    };
+    const Groups by_cell(cover_.size(), faces_.size(), cell_of);
+    tbb::enumerable_thread_specific<Scratch> scratches;
+    tbb::parallel_for(std::size_t{0}, cover_.size(), [&](std::size_t cell) {
+      if (by_cell.of(cell).empty()) return;
+      const PrunedField field = cover_.cube_field(cell);
+      Scratch& scratch = scratches.local();
+      for (const std::uint32_t i : by_cell.of(cell)) place_face(field, scratch.evaluator, scratch.choices, faces_[i]);
+    });
+  }
+
+  void place_face(const PrunedField& field, Evaluator& evaluator, ChoiceEvaluator& choices, FaceVertex& vertex) const {
+    const MinimalEdge& edge = edges_[vertex.edge];
+    const Face face = face_between(tree_, edge, EdgeFrame(tree_, edge), vertex.q, vertex.next);
+    const Vec3 p = crossing_point(vertex.edge), r = crossing_point(vertex.other_edge);
+    Box within = face.box;
+    for (int k = 1; k < 3; ++k) {
+      const int b = (face.axis + k) % 3;
+      within.lo[b] += kFaceMargin * face.edge;
+      within.hi[b] -= kFaceMargin * face.edge;
+    }
+    vertex.position = glm::clamp((p + r) / 2.0, within.lo, within.hi);
+    vertex.normal = crossings_[vertex.edge].normal + crossings_[vertex.other_edge].normal;
+    if (std::binary_search(creases_.begin(), creases_.end(), vertex.patches)) {
+      std::array<Choices, 2> sides;
+      choices.choose(field, p, sides[0]);
+      choices.choose(field, r, sides[1]);
+      if (const auto found = find_crease(choices, field, sides, vertex.position, within, face.axis);
+          found && found->kind != CreaseKind::kNone) {
+        vertex.position = found->position;
+        vertex.crease = true;
+        return;
+      }
+    }
+    for (int round = 0; round < 3; ++round) {
+      Sample sample = evaluator.sample(field, vertex.position);
+      sample.gradient[face.axis] = 0;
+      const double squared = glm::dot(sample.gradient, sample.gradient);
+      if (!(squared > 0) || !std::isfinite(squared)) return;
+      const Vec3 step = sample.gradient * ((kIso - sample.value) / squared);
+      if (!(glm::length(step) < face.edge)) return;
+      vertex.position = glm::clamp(vertex.position + step, within.lo, within.hi);
+    }
+  }
+
+  Vec3 crossing_point(std::uint32_t edge) const { return edge_point(tree_, edges_[edge], static_cast<double>(crossings_[edge].t)); }
+
+  const FaceVertex* face_of(std::uint32_t p, std::uint32_t r) const {
+    const std::array<std::uint32_t, 2> key{std::min(p, r), std::max(p, r)};
+    const auto at = std::lower_bound(faces_.begin(), faces_.end(), key,
+                                     [](const FaceVertex& face, const auto& wanted) { return face.patches < wanted; });
+    return at != faces_.end() && at->patches == key ? &*at : nullptr;
+  }
+
+  void plan() {
+    plans_.resize(edges_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges_.size(), kGrain), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) plans_[i] = plan_of(i);
+    });
+  }
+
+  Plan plan_of(std::size_t i) const {
+    const Ring ring = ring_of(edges_[i], patches_.patch_of_quadrant[i]);
+    int faces = 0;
+    for (int k = 0; k < ring.count; ++k) faces += face_of(ring.patches[k], ring.patches[(k + 1) % ring.count]) != nullptr;
+    Plan plan;
+    plan.fan = true;
+    plan.triangles = static_cast<std::uint8_t>(ring.count + faces);
+    if (faces > 0) return plan;
+    const EdgeFrame frame(tree_, edges_[i]);
+    std::array<Vec3, 4> p;
+    for (int k = 0; k < ring.count; ++k) p[k] = frame.local(position(ring.patches[k]));
+    if (ring.count == 3) {
+      const auto height = pierced_at(p[0], p[1], p[2]);
+      if (height && *height > frame.low && *height < frame.high) plan.fan = false, plan.triangles = 1;
+      return plan;
+    }
+    const bool first = diagonal_fits(frame, p[0], p[1], p[2], p[3]), second = diagonal_fits(frame, p[1], p[2], p[3], p[0]);
+    if (!first && !second) return plan;
+    plan.fan = false;
+    plan.triangles = 2;
+    plan.other_diagonal =
+        !first || (second && diagonal_score(p[1], p[2], p[3], p[0]) > diagonal_score(p[0], p[1], p[2], p[3]));
+    return plan;
+  }
+
+  DualMesh write() const {
+    DualMesh result;
+    Mesh& mesh = result.mesh;
+    const std::size_t patch_count = placed_.vertices.size();
+    std::vector<std::size_t> first_triangle(edges_.size() + 1, 0), edge_vertex(edges_.size() + 1, patch_count + faces_.size());
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      first_triangle[i + 1] = first_triangle[i] + plans_[i].triangles;
+      edge_vertex[i + 1] = edge_vertex[i] + plans_[i].fan;
+    }
+    result.face_vertices = faces_.size();
+    result.edge_vertices = edge_vertex.back() - patch_count - faces_.size();
+    mesh.positions.resize(edge_vertex.back());
+    mesh.normals.resize(edge_vertex.back());
+    mesh.triangles.resize(first_triangle.back());
+    for (std::size_t i = 0; i < patch_count; ++i) {
+      mesh.positions[i] = positions_[i];
+      mesh.normals[i] = placed_.vertices[i].normal;
+    }
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      mesh.positions[patch_count + i] = faces_[i].position;
+      mesh.normals[patch_count + i] = unit(faces_[i].normal);
+    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges_.size(), kGrain), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        write_polygon(i, static_cast<std::uint32_t>(edge_vertex[i]), &mesh.triangles[first_triangle[i]], mesh);
+      }
+    });
+    write_creases(mesh);
+    return result;
+  }
+
+  static glm::vec3 unit(const glm::vec3& v) {
+    const float length = glm::length(v);
+    return length > 1e-6f ? v / length : glm::vec3(0, 0, 1);
+  }
+
+  void write_polygon(std::size_t i, std::uint32_t center, std::array<std::uint32_t, 3>* out, Mesh& mesh) const {
+    const Ring ring = ring_of(edges_[i], patches_.patch_of_quadrant[i]);
+    const auto& v = ring.patches;
+    if (!plans_[i].fan) {
+      if (ring.count == 3) {
+        out[0] = {v[0], v[1], v[2]};
+      } else if (plans_[i].other_diagonal) {
+        out[0] = {v[1], v[2], v[3]};
+        out[1] = {v[1], v[3], v[0]};
+      } else {
+        out[0] = {v[0], v[1], v[2]};
+        out[1] = {v[0], v[2], v[3]};
+      }
+      return;
+    }
+    mesh.positions[center] = crossing_point(static_cast<std::uint32_t>(i));
+    mesh.normals[center] = unit(crossings_[i].normal);
+    for (int k = 0; k < ring.count; ++k) {
+      const std::uint32_t next = v[(k + 1) % ring.count];
+      if (const FaceVertex* face = face_of(v[k], next)) {
+        const auto between = static_cast<std::uint32_t>(placed_.vertices.size() + static_cast<std::size_t>(face - faces_.data()));
+        *out++ = {center, v[k], between};
+        *out++ = {center, between, next};
+      } else {
+        *out++ = {center, v[k], next};
+      }
+    }
+  }
+
+  void write_creases(Mesh& mesh) const {
+    for (const auto& crease : creases_) {
+      if (const FaceVertex* face = face_of(crease[0], crease[1])) {
+        const auto between = static_cast<std::uint32_t>(placed_.vertices.size() + static_cast<std::size_t>(face - faces_.data()));
+        mesh.creases.push_back({crease[0], between});
+        mesh.creases.push_back({crease[1], between});
+      } else {
+        mesh.creases.push_back(crease);
+      }
+    }
+    std::sort(mesh.creases.begin(), mesh.creases.end());
+  }
+
+  const SurfaceOctree& tree_;
+  const SurfaceCover& cover_;
+  const std::vector<MinimalEdge>& edges_;
+  const std::vector<Crossing>& crossings_;
+  const SurfacePatches& patches_;
+  const PatchVertices& placed_;
+  const std::vector<Vec3>& positions_;
+  const std::vector<std::array<std::uint32_t, 2>> creases_;
+  std::vector<FaceVertex> faces_;
+  std::vector<Plan> plans_;
+};
+
+/// How far outside of a polygon's mean plane the surface is where it crosses the polygon's edge, metres. Of a polygon that is folded
+/// flat, the distance to the nearest corner.
+double height_over(const Ring& ring, const std::vector<Vec3>& positions, const Vec3& x) {
+  std::array<Vec3, 4> p;
+  Vec3 mean(0.0);
+  double nearest = kInfinity;
+  for (int k = 0; k < ring.count; ++k) {
+    p[k] = positions[ring.patches[k]] - x;
+    mean += p[k];
+    nearest = std::min(nearest, glm::length(p[k]));
+  }
+  mean /= static_cast<double>(ring.count);
+  const Vec3 area = ring.count == 3 ? glm::cross(p[1] - p[0], p[2] - p[0]) : glm::cross(p[2] - p[0], p[3] - p[1]);
+  const double length = glm::length(area);
+  const double height = length > 0 ? -glm::dot(mean, area) / length : kInfinity;
+  return std::abs(height) < nearest ? height : std::copysign(nearest, height);
+}
+
+}  // namespace
+
+BalancedVertices balance_vertices(const SurfaceOctree& tree, const Contour& contour, double tolerance) {
+  const std::vector<MinimalEdge>& edges = contour.edges;
+  BalancedVertices result;
+  result.positions.resize(contour.placed.vertices.size());
+  result.errors.resize(edges.size());
+  for (std::size_t i = 0; i < result.positions.size(); ++i) result.positions[i] = contour.placed.vertices[i].position;
+  const auto measure = [&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), kGrain), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const Vec3 x = edge_point(tree, edges[i], static_cast<double>(contour.crossings[i].t));
+        result.errors[i] =
+            static_cast<float>(height_over(ring_of(edges[i], contour.patches.patch_of_quadrant[i]), result.positions, x));
+      }
+    });
+  };
+  measure();
+  const std::vector<Patch>& patches = contour.patches.patches;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const PatchVertex& vertex = contour.placed.vertices[i];
+      if (vertex.crease) continue;
+      double sum = 0;
+      for (const std::uint32_t e : contour.patches.edges_of(patches[i])) sum += static_cast<double>(result.errors[e]);
+      const double outwards = std::clamp(0.5 * sum / patches[i].edge_count, -0.5 * tolerance, 0.5 * tolerance);
+      const OctreeLeaf& leaf = tree.leaves()[patches[i].leaf];
+      const Box box = tree.box(leaf);
+      const double margin = kVertexMargin * tree.edge(leaf);
+      result.positions[i] = glm::clamp(vertex.position + outwards * Vec3(vertex.normal), box.lo + margin, box.hi - margin);
+    }
+  });
+  measure();
+  for (float& error : result.errors) error = std::abs(error);
+  return result;
+}
+
+std::optional<DualMesh> build_polygons(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
+                                       const std::vector<Vec3>& positions, const RunOptions& run) {
+  return PolygonBuilder(tree, cover, contour, positions).build(run);
+}
+
+}  // namespace cambium

@@ -1,0 +1,410 @@
+#include "polygonize/surface_octree.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cambium {
+namespace {
+
+// Float batches agree with the double field to 1e-4 where values are about 1; nearer to the surface than ten times that a
+// corner's sign is decided in double.
+constexpr float kDoubtfulValue = 1e-3f;
+constexpr int kMostCuts = 3;   // at once: 9^3 corners
+
+CellPlace offset(const CellPlace& place, int x, int y, int z, int level) {
+  return {place[0] + (static_cast<std::uint32_t>(x) << level), place[1] + (static_cast<std::uint32_t>(y) << level),
+          place[2] + (static_cast<std::uint32_t>(z) << level)};
+}
+
+}  // namespace
+
+double LeafRule::edge(double radius) const {
+  if (!std::isfinite(radius)) return longest;
+  return std::min({longest, radii * radius, std::sqrt(sagitta * radius)});
+}
+
+/// Samples the corners of a cube cut into equal parts: which are inside, and which parts have an edge between two corners of the
+/// same kind on which the field nevertheless seems to cross the surface twice. Scratch of one thread.
+class SurfaceOctree::Sampler {
+ public:
+  /// What becomes of the cube is written to subtree; its root is the result. merge: eight leaves without a crossing are one.
+  Node cut(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level, int cuts,
+           bool merge, Subtree& subtree) {
+    merge_ = merge;
+    sample(tree, field, place, level - cuts, cuts);
+    // Parts in the order of the octree: the children of each node together.
+    std::vector<std::pair<std::uint32_t, int>> suspects;   // leaf, its level
+    const Node root = descend(cell, place, level, {0, 0, 0}, cuts, subtree, suspects);
+    for (const auto& [leaf, leaf_level] : suspects) {
+      if (leaf_level == 0 || std::ldexp(tree.grid_.cell, leaf_level) < 2 * tree.rule_.shortest_gap) continue;
+      const OctreeLeaf old = subtree.leaves[leaf];
+      again_.push_back({leaf, old});
+    }
+    // The sampler's arrays are in use until here.
+    const auto again = std::move(again_);
+    again_ = {};
+    Node result = root;
+    for (const auto& [leaf, old] : again) {
+      const Node made = cut(tree, field, cell, old.place, old.level, 1, merge, subtree);
+      replace(subtree, result, leaf, made);
+    }
+    return result;
+  }
+
+ private:
+  static void replace(Subtree& subtree, Node& root, std::uint32_t leaf, Node made) {
+    const std::uint32_t word = leaf | Node::kLeafBit;
+    if (root.word == word) {
+      root = made;
+      return;
+    }
+    for (std::size_t i = subtree.nodes.size(); i-- > 0;) {   // it was made lately
+      if (subtree.nodes[i].word == word) {
+        subtree.nodes[i] = made;
+        return;
+      }
+    }
+  }
+
+  int at(int x, int y, int z) const { return x + side_ * (y + side_ * z); }
+
+  void sample(const SurfaceOctree& tree, const PrunedField& field, const CellPlace& place, int level, int cuts) {
+    parts_ = 1 << cuts;
+    side_ = parts_ + 1;
+    const std::size_t n = static_cast<std::size_t>(side_ * side_ * side_);
+    for (auto* v : {&x_, &y_, &z_, &f_, &gx_, &gy_, &gz_}) v->resize(n);
+    inside_.resize(n);
+    const Vec3 base = tree.point(place) - field.origin();
+    const double step = std::ldexp(tree.grid_.cell, level);
+    for (int z = 0, i = 0; z < side_; ++z)
+      for (int y = 0; y < side_; ++y)
+        for (int x = 0; x < side_; ++x, ++i) {
+          x_[i] = static_cast<float>(base.x + step * x);
+          y_[i] = static_cast<float>(base.y + step * y);
+          z_[i] = static_cast<float>(base.z + step * z);
+        }
+    evaluator_.samples(field, x_, y_, z_, f_, gx_, gy_, gz_);
+    float largest = 1;
+    for (const float f : f_) largest = std::max(largest, std::abs(f));
+    const float doubtful = kDoubtfulValue * largest;
+    for (int z = 0, i = 0; z < side_; ++z)
+      for (int y = 0; y < side_; ++y)
+        for (int x = 0; x < side_; ++x, ++i) {
+          f_[i] -= static_cast<float>(kIso);
+          if (!(std::abs(f_[i]) > doubtful)) {
+            f_[i] = static_cast<float>(evaluator_.value(field, tree.point(offset(place, x, y, z, level))) - kIso);
+          }
+          inside_[i] = f_[i] >= 0;
+        }
+    find_suspects(field, static_cast<float>(step));
+  }
+
+  // Where the tangents at both ends of an edge cross on the far side of the surface, the field is asked there.
+  void find_suspects(const PrunedField& field, float step) {
+    suspect_.assign(static_cast<std::size_t>(parts_ * parts_ * parts_), 0);
+    probes_.clear();
+    const std::array<int, 3> stride{1, side_, side_ * side_};
+    for (int z = 0, i = 0; z < side_; ++z)
+      for (int y = 0; y < side_; ++y)
+        for (int x = 0; x < side_; ++x, ++i) {
+          const std::array<int, 3> c{x, y, z};
+          for (int a = 0; a < 3; ++a) {
+            if (c[a] == parts_) continue;
+            const int j = i + stride[a];
+            if (inside_[i] != inside_[j]) continue;
+            const std::vector<float>& g = a == 0 ? gx_ : a == 1 ? gy_ : gz_;
+            const float side = inside_[i] ? 1.0f : -1.0f;
+            const float slope_i = side * g[i] * step, slope_j = side * g[j] * step;
+            if (!(slope_i < 0 && slope_j > 0)) continue;
+            const float vi = side * f_[i], vj = side * f_[j];
+            const float t = (vj - vi - slope_j) / (slope_i - slope_j);
+            if (!(t > 0 && t < 1 && vi + slope_i * t < 0)) continue;
+            probes_.push_back({i, a, t, inside_[i] != 0});
+          }
+        }
+    if (probes_.empty()) return;
+    const std::size_t n = probes_.size();
+    for (auto* v : {&px_, &py_, &pz_, &pf_}) v->resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Probe& probe = probes_[k];
+      px_[k] = x_[probe.corner] + (probe.axis == 0 ? probe.t * step : 0.0f);
+      py_[k] = y_[probe.corner] + (probe.axis == 1 ? probe.t * step : 0.0f);
+      pz_[k] = z_[probe.corner] + (probe.axis == 2 ? probe.t * step : 0.0f);
+    }
+    evaluator_.values(field, px_, py_, pz_, pf_);
+    for (std::size_t k = 0; k < n; ++k) {
+      if ((pf_[k] >= static_cast<float>(kIso)) == probes_[k].inside) continue;
+      const int i = probes_[k].corner, a = probes_[k].axis;
+      const std::array<int, 3> c{i % side_, i / side_ % side_, i / (side_ * side_)};
+      const int b = (a + 1) % 3, d = (a + 2) % 3;
+      for (int s = 0; s < 4; ++s) {   // the parts around the edge
+        std::array<int, 3> part = c;
+        part[b] -= s & 1;
+        part[d] -= s >> 1;
+        if (part[b] < 0 || part[d] < 0 || part[b] == parts_ || part[d] == parts_) continue;
+        suspect_[static_cast<std::size_t>(part[0] + parts_ * (part[1] + parts_ * part[2]))] = 1;
+      }
+    }
+  }
+
+  Node descend(std::uint32_t cell, const CellPlace& place, int level, const std::array<int, 3>& part, int cuts, Subtree& subtree,
+               std::vector<std::pair<std::uint32_t, int>>& suspects) {
+    if (cuts == 0) {
+      OctreeLeaf leaf{cell, place, static_cast<std::uint8_t>(level), 0};
+      for (int c = 0; c < 8; ++c) {
+        leaf.mask |= static_cast<std::uint8_t>(inside_[at(part[0] + (c & 1), part[1] + (c >> 1 & 1), part[2] + (c >> 2))] << c);
+      }
+      const auto id = static_cast<std::uint32_t>(subtree.leaves.size());
+      subtree.leaves.push_back(leaf);
+      if (suspect_[static_cast<std::size_t>(part[0] + parts_ * (part[1] + parts_ * part[2]))]) suspects.push_back({id, level});
+      return {id | Node::kLeafBit};
+    }
+    const std::size_t leaves_before = subtree.leaves.size(), suspects_before = suspects.size();
+    const std::size_t nodes_before = subtree.nodes.size();
+    const auto first = static_cast<std::uint32_t>(nodes_before);
+    subtree.nodes.resize(first + 8);
+    const int half = 1 << (cuts - 1);
+    for (int c = 0; c < 8; ++c) {
+      const std::array<int, 3> child_part{part[0] + (c & 1) * half, part[1] + (c >> 1 & 1) * half, part[2] + (c >> 2) * half};
+      const Node made = descend(cell, offset(place, c & 1, c >> 1 & 1, c >> 2, level - 1), level - 1, child_part, cuts - 1,
+                                subtree, suspects);
+      subtree.nodes[first + static_cast<std::uint32_t>(c)] = made;
+    }
+    if (merge_ && subtree.leaves.size() == leaves_before + 8 && suspects.size() == suspects_before) {
+      const std::uint8_t mask = subtree.leaves[leaves_before].mask;
+      const bool same = (mask == 0 || mask == 255) && std::all_of(subtree.leaves.begin() + static_cast<std::ptrdiff_t>(leaves_before),
+                                                                  subtree.leaves.end(), [&](const auto& l) { return l.mask == mask; });
+      if (same) {
+        subtree.leaves.resize(leaves_before);
+        subtree.nodes.resize(nodes_before);
+        subtree.leaves.push_back({cell, place, static_cast<std::uint8_t>(level), mask});
+        return {static_cast<std::uint32_t>(leaves_before) | Node::kLeafBit};
+      }
+    }
+    return {first};
+  }
+
+  struct Probe {
+    int corner, axis;
+    float t;
+    bool inside;
+  };
+  Evaluator evaluator_;
+  bool merge_ = true;
+  int parts_ = 0, side_ = 0;
+  std::vector<float> x_, y_, z_, f_, gx_, gy_, gz_, px_, py_, pz_, pf_;
+  std::vector<std::uint8_t> inside_, suspect_;
+  std::vector<Probe> probes_;
+  std::vector<std::pair<std::uint32_t, OctreeLeaf>> again_;
+};
+
+SurfaceOctree::Node SurfaceOctree::adopt(const Subtree& subtree, std::size_t nodes_at, std::size_t leaves_at) {
+  const auto moved = [&](Node node) -> Node {
+    if (node.is_void()) return node;
+    if (node.is_leaf()) return {static_cast<std::uint32_t>(node.leaf() + leaves_at) | Node::kLeafBit};
+    return {static_cast<std::uint32_t>(node.word + nodes_at)};
+  };
+  std::transform(subtree.nodes.begin(), subtree.nodes.end(), nodes_.begin() + static_cast<std::ptrdiff_t>(nodes_at), moved);
+  std::copy(subtree.leaves.begin(), subtree.leaves.end(), leaves_.begin() + static_cast<std::ptrdiff_t>(leaves_at));
+  return moved(subtree.root);
+}
+
+// The cells [begin, end) of the cover are those inside one cube.
+SurfaceOctree::Node SurfaceOctree::join(const SurfaceCover& cover, const std::vector<Node>& roots, std::size_t begin,
+                                        std::size_t end, int level) {
+  if (begin == end) return {};
+  if (cover.level(begin) + finer_ == level) return roots[begin];
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(first + 8);
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    std::size_t after = begin;
+    const auto child_of = [&](std::size_t i) {
+      std::uint32_t child = 0;
+      for (int a = 0; a < 3; ++a) child |= (cover.place(i)[a] >> (level - 1 - finer_) & 1u) << a;
+      return child;
+    };
+    while (after < end && child_of(after) == c) ++after;
+    const Node made = join(cover, roots, begin, after, level - 1);
+    nodes_[first + c] = made;
+    begin = after;
+  }
+  return {first};
+}
+
+std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int finer, const LeafRule& rule, const RunOptions& run) {
+  SurfaceOctree tree;
+  tree.grid_ = cover.grid();
+  tree.grid_.cell = std::ldexp(tree.grid_.cell, -finer);
+  for (std::int64_t& first : tree.grid_.first) first <<= finer;
+  tree.grid_.levels += finer;
+  tree.finer_ = finer;
+  tree.rule_ = rule;
+  std::vector<Subtree> subtrees(cover.size());
+  tbb::enumerable_thread_specific<Sampler> samplers;
+  tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const PrunedField field = cover.cube_field(i);
+    const double wanted = rule.edge(field.smallest_radius());
+    const int level = cover.level(i) + finer;
+    CellPlace place = cover.place(i);
+    for (std::uint32_t& along : place) along <<= finer;
+    int cuts = 0;
+    while (cuts < std::min(level, kMostCuts) && std::ldexp(tree.grid_.cell, level - cuts) > wanted) ++cuts;
+    subtrees[i].root =
+        samplers.local().cut(tree, field, static_cast<std::uint32_t>(i), place, level, cuts, true, subtrees[i]);
+  });
+  if (run.cancelled()) return std::nullopt;
+  std::vector<std::size_t> nodes_at(cover.size() + 1, 0), leaves_at(cover.size() + 1, 0);
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    nodes_at[i + 1] = nodes_at[i] + subtrees[i].nodes.size();
+    leaves_at[i + 1] = leaves_at[i] + subtrees[i].leaves.size();
+  }
+  tree.nodes_.resize(nodes_at.back());
+  tree.leaves_.resize(leaves_at.back());
+  std::vector<Node> roots(cover.size());
+  tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
+    roots[i] = tree.adopt(subtrees[i], nodes_at[i], leaves_at[i]);
+    subtrees[i] = {};
+  });
+  tree.root_ = tree.join(cover, roots, 0, cover.size(), tree.grid_.levels);
+  return tree;
+}
+
+SurfaceOctree::Node* SurfaceOctree::slot_of(const CellPlace& place) {
+  Node* slot = &root_;
+  for (int level = grid_.levels; slot->has_children(); --level) {
+    std::uint32_t child = 0;
+    for (int a = 0; a < 3; ++a) child |= (place[a] >> (level - 1) & 1u) << a;
+    slot = &nodes_[slot->word + child];
+  }
+  return slot;
+}
+
+std::optional<std::uint32_t> SurfaceOctree::find(const CellPlace& place) const {
+  for (int a = 0; a < 3; ++a) {
+    if (place[a] >> grid_.levels) return std::nullopt;
+  }
+  const Node* slot = const_cast<SurfaceOctree*>(this)->slot_of(place);
+  if (slot->is_void()) return std::nullopt;
+  return slot->leaf();
+}
+
+// Cutting a leaf makes eight of the next level below, which may have no neighbour more than one level above them.
+std::vector<std::uint32_t> SurfaceOctree::with_larger_neighbours(std::vector<std::uint32_t> leaves) const {
+  std::vector<bool> listed(leaves_.size(), false);
+  for (const std::uint32_t leaf : leaves) listed[leaf] = true;
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const OctreeLeaf& leaf = leaves_[leaves[i]];
+    for (int direction = 0; direction < 27; ++direction) {
+      const std::array<int, 3> step{direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
+      const int axes = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
+      if (axes == 0 || axes == 3) continue;
+      CellPlace place = leaf.place;
+      for (int a = 0; a < 3; ++a) place[a] += static_cast<std::uint32_t>(step[a]) << leaf.level;   // wraps below zero: not found
+      const auto neighbour = find(place);
+      if (!neighbour || listed[*neighbour] || leaves_[*neighbour].level <= leaf.level) continue;
+      listed[*neighbour] = true;
+      leaves.push_back(*neighbour);
+    }
+  }
+  std::sort(leaves.begin(), leaves.end());
+  return leaves;
+}
+
+void SurfaceOctree::cut(const SurfaceCover& cover, const std::vector<std::uint32_t>& leaves, const RunOptions& run) {
+  std::vector<Subtree> subtrees(leaves.size());
+  tbb::enumerable_thread_specific<Sampler> samplers;
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
+    if (run.cancelled()) return;
+    const OctreeLeaf& leaf = leaves_[leaves[i]];
+    subtrees[i].root =
+        samplers.local().cut(*this, cover.cube_field(leaf.cell), leaf.cell, leaf.place, leaf.level, 1, false, subtrees[i]);
+  });
+  if (run.cancelled()) return;
+  std::size_t nodes_at = nodes_.size(), leaves_at = leaves_.size(), nodes = nodes_at, count = leaves_at;
+  for (const Subtree& subtree : subtrees) nodes += subtree.nodes.size(), count += subtree.leaves.size();
+  nodes_.resize(nodes);
+  leaves_.resize(count);
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const CellPlace place = leaves_[leaves[i]].place;
+    const Node made = adopt(subtrees[i], nodes_at, leaves_at);
+    *slot_of(place) = made;
+    leaves_[leaves[i]].mask = 0;
+    nodes_at += subtrees[i].nodes.size();
+    leaves_at += subtrees[i].leaves.size();
+  }
+}
+
+// Whether the middle of an edge whose ends are of one kind is of the other, as a finer leaf around it knows.
+bool SurfaceOctree::crossed_twice(const OctreeLeaf& leaf, int edge) const {
+  if (leaf.level == 0) return false;
+  const int axis = edge / 4, own = 3 - edge % 4, corner = edge_low_corner(edge);
+  CellPlace middle = leaf.place;
+  for (int a = 0; a < 3; ++a) middle[a] += static_cast<std::uint32_t>(corner >> a & 1) << leaf.level;
+  middle[axis] += 1u << (leaf.level - 1);
+  for (int q = 0; q < 4; ++q) {
+    if (q == own) continue;
+    CellPlace place = middle;   // of the unit cube above the middle in this quadrant
+    int bit = 0;
+    for (int k = 0; k < 2; ++k) {
+      const int a = (axis + 1 + k) % 3;
+      if (q >> k & 1) continue;
+      --place[a];
+      bit |= 1 << a;
+    }
+    const auto finer = find(place);
+    if (!finer || leaves_[*finer].level >= leaf.level) continue;
+    if ((leaves_[*finer].mask >> bit & 1) != (leaf.mask >> corner & 1)) return true;
+  }
+  return false;
+}
+
+// Of the leaves around the crossed edges of new ones, those that must be cut. An edge that a still finer leaf divides is told of
+// from there.
+std::vector<std::uint32_t> SurfaceOctree::unsettled(std::size_t first_leaf) const {
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = first_leaf; i < leaves_.size(); ++i) {
+    const OctreeLeaf& leaf = leaves_[i];
+    if (find(leaf.place) != i) continue;
+    for (int e = 0; e < 12; ++e) {
+      if (!edge_crossed(leaf.mask, e)) {
+        if (crossed_twice(leaf, e)) found.push_back(static_cast<std::uint32_t>(i));
+        continue;
+      }
+      const int axis = e / 4, own = 3 - e % 4;   // the quadrant that the leaf is in
+      std::array<std::optional<std::uint32_t>, 4> around;
+      for (int q = 0; q < 4; ++q) {
+        CellPlace place = leaf.place;
+        for (int k = 0; k < 2; ++k) {
+          const int away = (q >> k & 1) - (own >> k & 1);
+          place[(axis + 1 + k) % 3] += static_cast<std::uint32_t>(away) << leaf.level;
+        }
+        around[q] = q == own ? static_cast<std::uint32_t>(i) : find(place);
+      }
+      for (int q = 0; q < 4; ++q) {
+        if (!around[q] || leaves_[*around[q]].level <= leaf.level) continue;
+        if (must_split(*around[q], axis, q, leaf.level, around[q ^ 1] == around[q] || around[q ^ 2] == around[q])) {
+          found.push_back(*around[q]);
+        }
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+bool SurfaceOctree::split(const SurfaceCover& cover, std::vector<std::uint32_t> leaves, const RunOptions& run) {
+  while (!leaves.empty()) {
+    const std::size_t before = leaves_.size();
+    cut(cover, with_larger_neighbours(std::move(leaves)), run);
+    if (run.cancelled()) return false;
+    leaves = unsettled(before);
+  }
+  return true;
+}
+
+}  // namespace cambium

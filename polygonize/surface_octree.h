@@ -1,0 +1,100 @@
+// The octree that an adaptive mesh is contoured on: the cells of a surface cover, cut into leaves whose corners know whether
+// they are inside. Leaves follow the radius of what is active in them and may be cut further.
+#pragma once
+
+#include "blobtree/run_options.h"
+#include "blobtree/surface_cover.h"
+#include "polygonize/cube_edges.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cambium {
+
+/// A cube of 2^level units along its edge. Bit c of mask: corner c, at (c & 1, c >> 1 & 1, c >> 2 & 1), is inside.
+struct OctreeLeaf {
+  std::uint32_t cell = 0;            ///< of the cover that holds it
+  CellPlace place{};                 ///< its low corner, in units
+  std::uint8_t level = 0;
+  std::uint8_t mask = 0;
+  bool uniform() const { return mask == 0 || mask == 255; }
+};
+
+/// How large leaves may be at first, metres.
+struct LeafRule {
+  double radii = 1;                  ///< in smallest active surface radii
+  double sagitta = kInfinity;        ///< and at most sqrt(sagitta * radius)
+  double longest = kInfinity;
+  double shortest_gap = 0;           ///< leaves are not cut below this to show that two sheets are apart
+
+  double edge(double radius) const;
+};
+
+class SurfaceOctree {
+ public:
+  /// A node: nothing (no surface in it or on its boundary), a leaf, or eight children.
+  struct Node {
+    std::uint32_t word = kVoid;
+    static constexpr std::uint32_t kVoid = 0xffffffffu, kLeafBit = 0x80000000u;
+    bool is_void() const { return word == kVoid; }
+    bool is_leaf() const { return word != kVoid && (word & kLeafBit); }
+    bool has_children() const { return !(word & kLeafBit); }
+    std::uint32_t leaf() const { return word & ~kLeafBit; }
+  };
+
+  /// nullopt if cancelled. Corners are decided in double wherever a float batch could be mistaken, and a pruned field equals the
+  /// whole one exactly, so neighbours never disagree. Cost: the leaves' corners, in dense batches. The same at any thread count.
+  /// Units are the cover's level-0 cells halved `finer` times.
+  static std::optional<SurfaceOctree> build(const SurfaceCover& cover, int finer, const LeafRule& rule, const RunOptions& run);
+
+  Node root() const { return root_; }
+  int root_level() const { return grid_.levels; }
+  Node child(Node node, int child) const { return nodes_[node.word + static_cast<std::uint32_t>(child)]; }
+  const std::vector<OctreeLeaf>& leaves() const { return leaves_; }
+  const CellGrid& grid() const { return grid_; }
+
+  double edge(const OctreeLeaf& leaf) const { return grid_.cell * static_cast<double>(std::uint64_t{1} << leaf.level); }
+  Vec3 point(const CellPlace& place) const { return grid_.box(place, 0).lo; }
+  Box box(const OctreeLeaf& leaf) const { return grid_.box(leaf.place, leaf.level); }
+
+  /// The leaf that holds the unit cube at `place`, or none.
+  std::optional<std::uint32_t> find(const CellPlace& place) const;
+  /// Whether a leaf cannot stay as it is beside a crossed minimal edge along `axis` of a leaf on level `finest`: it is more than twice as
+  /// large, or the edge is half of one of its own whose ends are of one kind. quadrant: where it is around the edge; spans: it lies
+  /// in two quadrants, so that the edge is inside one of its faces.
+  bool must_split(std::uint32_t leaf, int axis, int quadrant, int finest, bool spans) const {
+    const OctreeLeaf& l = leaves_[leaf];
+    if (l.level > finest + 1) return true;
+    if (spans || l.level == finest) return false;
+    return !edge_crossed(l.mask, 4 * axis + 3 - quadrant);
+  }
+  /// Cuts each leaf listed (none on level 0) into eight, and others for as long as must_split asks. A cut leaf's number dies; the
+  /// eight get new ones. False if cancelled. Cost: that of the leaves cut.
+  bool split(const SurfaceCover& cover, std::vector<std::uint32_t> leaves, const RunOptions& run);
+
+ private:
+  struct Subtree {
+    std::vector<Node> nodes;         // children relative to the subtree's own, leaves likewise
+    std::vector<OctreeLeaf> leaves;
+    Node root;
+  };
+  class Sampler;
+  std::vector<std::uint32_t> with_larger_neighbours(std::vector<std::uint32_t> leaves) const;
+  Node* slot_of(const CellPlace& place);
+  void cut(const SurfaceCover& cover, const std::vector<std::uint32_t>& leaves, const RunOptions& run);
+  bool crossed_twice(const OctreeLeaf& leaf, int edge) const;
+  std::vector<std::uint32_t> unsettled(std::size_t first_leaf) const;
+  Node adopt(const Subtree& subtree, std::size_t nodes_at, std::size_t leaves_at);
+  Node join(const SurfaceCover& cover, const std::vector<Node>& roots, std::size_t begin, std::size_t end, int level);
+
+  CellGrid grid_;
+  int finer_ = 0;
+  LeafRule rule_;
+  Node root_;
+  std::vector<Node> nodes_;
+  std::vector<OctreeLeaf> leaves_;
+};
+
+}  // namespace cambium

@@ -1,0 +1,323 @@
+#include "polygonize/surface_patches.h"
+
+#include "polygonize/cube_edges.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace cambium {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+// A crossed edge on a leaf's boundary, and the leaves across the two faces that the surface leaves it through.
+struct Incident {
+  std::uint32_t edge = 0;
+  std::array<std::uint32_t, 2> across{};
+  std::array<std::uint32_t, 2> next{kNone, kNone};   // incidents of the same leaf
+  bool visited = false;
+};
+
+// Where a leaf sits around an edge: its first quadrant in ring order, and the leaves before and after it.
+Incident incident_of(const MinimalEdge& edge, std::uint32_t id, std::uint32_t leaf) {
+  int begin = 0;
+  while (!(edge.leaves[kRing[begin]] == leaf && edge.leaves[kRing[(begin + 3) % 4]] != leaf)) ++begin;
+  int end = begin;
+  while (edge.leaves[kRing[(end + 1) % 4]] == leaf) end = (end + 1) % 4;
+  Incident incident;
+  incident.edge = id;
+  incident.across = {edge.leaves[kRing[(begin + 3) % 4]], edge.leaves[kRing[(end + 1) % 4]]};
+  return incident;
+}
+
+/// A face that the surface crosses in several lines: the edges that each line runs between.
+struct ManyLines {
+  std::uint32_t leaf = 0, other = 0;                         // on its two sides, the lower number first
+  std::vector<std::array<std::uint32_t, 2>> lines;
+};
+
+/// By the two leaves: lines that are not what the corners' rule gives.
+using Relinked = std::unordered_map<std::uint64_t, std::vector<std::array<std::uint32_t, 2>>>;
+
+std::uint64_t key_of(std::uint32_t leaf, std::uint32_t other) {
+  return std::uint64_t{std::min(leaf, other)} << 32 | std::max(leaf, other);
+}
+
+class LeafTracer {
+ public:
+  LeafTracer(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges) : tree_(tree), edges_(edges) {}
+
+  std::vector<ManyLines> faces;   ///< met on the way, each from its lower leaf
+  const Relinked* relinked = nullptr;
+
+  /// Appends the cycles' edges in order to `order`, and how many each has to `lengths`.
+  void trace(std::uint32_t leaf, std::span<const std::uint32_t> edges, std::vector<std::uint32_t>& order,
+             std::vector<std::uint32_t>& lengths) {
+    incidents_.clear();
+    for (const std::uint32_t id : edges) incidents_.push_back(incident_of(edges_[id], id, leaf));
+    link(leaf);
+    for (std::uint32_t i = 0; i < incidents_.size(); ++i) {
+      if (incidents_[i].visited) continue;
+      std::uint32_t length = 0, at = i, from = kNone;
+      do {
+        incidents_[at].visited = true;
+        order.push_back(incidents_[at].edge);
+        ++length;
+        const auto& next = incidents_[at].next;
+        const std::uint32_t to = next[0] != from ? next[0] : next[1];
+        from = at, at = to;
+      } while (at != kNone && !incidents_[at].visited);
+      lengths.push_back(length);
+    }
+  }
+
+ private:
+  // Two crossings of one face are joined by the surface's line across it.
+  void link(std::uint32_t leaf) {
+    sides_.clear();
+    for (std::uint32_t i = 0; i < incidents_.size(); ++i)
+      for (int s = 0; s < 2; ++s) sides_.push_back({incidents_[i].across[s], i});
+    std::sort(sides_.begin(), sides_.end());
+    for (std::size_t begin = 0; begin < sides_.size();) {
+      std::size_t end = begin;
+      while (end < sides_.size() && sides_[end].first == sides_[begin].first) ++end;
+      if (end - begin == 2) {
+        join(sides_[begin].second, sides_[begin + 1].second);
+      } else {
+        link_many(leaf, sides_[begin].first, begin, end);
+      }
+      begin = end;
+    }
+  }
+
+  void join(std::uint32_t i, std::uint32_t j) {
+    auto& a = incidents_[i].next;
+    auto& b = incidents_[j].next;
+    a[a[0] != kNone] = j;
+    b[b[0] != kNone] = i;
+  }
+
+  // Around the face's boundary, every stretch that is inside is cut off by a line of its own.
+  void link_many(std::uint32_t leaf, std::uint32_t other, std::size_t begin, std::size_t end) {
+    if (relinked) {
+      if (const auto known = relinked->find(key_of(leaf, other)); known != relinked->end()) {
+        for (const auto& line : known->second) join(incident(line[0]), incident(line[1]));
+        return;
+      }
+    }
+    const FaceBoundary boundary(tree_, leaf, other);
+    around_.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      around_.push_back(boundary.at(tree_, edges_[incidents_[sides_[i].second].edge], sides_[i].second));
+    }
+    std::sort(around_.begin(), around_.end());
+    ManyLines face;
+    for (std::size_t i = 0; i < around_.size(); ++i) {
+      if (!around_[i].enters) continue;
+      const std::uint32_t from = around_[i].incident, to = around_[(i + 1) % around_.size()].incident;
+      join(from, to);
+      face.lines.push_back({incidents_[from].edge, incidents_[to].edge});
+    }
+    if (leaf > other) return;   // it is told by the other one too
+    face.leaf = leaf, face.other = other;
+    faces.push_back(std::move(face));
+  }
+
+  std::uint32_t incident(std::uint32_t edge) const {
+    std::uint32_t i = 0;
+    while (incidents_[i].edge != edge) ++i;
+    return i;
+  }
+
+  struct Around {
+    std::uint64_t way = 0;       // along the boundary
+    std::uint32_t incident = 0;
+    bool enters = false;         // goes inside there
+    bool operator<(const Around& o) const { return way < o.way; }
+  };
+
+  /// The boundary of the face between two leaves, walked once around.
+  struct FaceBoundary {
+    int u = 0, v = 0;
+    std::array<std::uint32_t, 2> low{};
+    std::uint64_t side = 0;      // in half units
+
+    FaceBoundary(const SurfaceOctree& tree, std::uint32_t leaf, std::uint32_t other) {
+      const OctreeLeaf *small = &tree.leaves()[leaf], *large = &tree.leaves()[other];
+      if (small->level > large->level) std::swap(small, large);
+      int across = 0;
+      for (int a = 0; a < 3; ++a) {
+        const std::uint32_t begin = small->place[a], from = large->place[a];
+        if (begin + (1u << small->level) == from || from + (1u << large->level) == begin) across = a;
+      }
+      u = (across + 1) % 3, v = (across + 2) % 3;
+      low = {small->place[u], small->place[v]};
+      side = std::uint64_t{2} << small->level;
+    }
+
+    Around at(const SurfaceOctree& tree, const MinimalEdge& edge, std::uint32_t incident) const {
+      const OctreeLeaf& owner = tree.leaves()[edge.owner()];
+      const int corner = edge_low_corner(edge.edge_of_owner());
+      std::array<std::uint64_t, 2> from_low;   // of the edge's middle, half units
+      for (int k = 0; k < 2; ++k) {
+        const int a = k == 0 ? u : v;
+        const std::uint32_t begin = owner.place[a] + (static_cast<std::uint32_t>(corner >> a & 1) << owner.level);
+        from_low[k] = 2 * std::uint64_t{begin - low[k]} + (edge.axis == a ? std::uint64_t{1} << owner.level : 0);
+      }
+      Around result{0, incident, false};
+      bool forwards = true;
+      if (edge.axis == u) {
+        forwards = from_low[1] == 0;
+        result.way = forwards ? from_low[0] : 3 * side - from_low[0];
+      } else {
+        forwards = from_low[0] != 0;
+        result.way = forwards ? side + from_low[1] : 4 * side - from_low[1];
+      }
+      result.enters = forwards != edge.low_inside;
+      return result;
+    }
+  };
+
+  const SurfaceOctree& tree_;
+  const std::vector<MinimalEdge>& edges_;
+  std::vector<Incident> incidents_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sides_;   // leaf across, incident
+  std::vector<Around> around_;
+};
+
+template <class Visit>
+void for_each_leaf(const MinimalEdge& edge, Visit&& visit) {
+  for (int k = 0; k < 4; ++k) {
+    const std::uint32_t leaf = edge.leaves[kRing[k]];
+    if (leaf != edge.leaves[kRing[(k + 3) % 4]]) visit(leaf);
+  }
+}
+
+/// The crossed edges around each leaf.
+class Incidence {
+ public:
+  Incidence(std::size_t leaves, const std::vector<MinimalEdge>& edges) : first_(leaves + 1, 0) {
+    for (const MinimalEdge& edge : edges) for_each_leaf(edge, [&](std::uint32_t leaf) { ++first_[leaf + 1]; });
+    for (std::size_t i = 0; i < leaves; ++i) first_[i + 1] += first_[i];
+    edges_.resize(first_.back());
+    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      for_each_leaf(edges[e], [&](std::uint32_t leaf) { edges_[at[leaf]++] = e; });
+    }
+  }
+  std::span<const std::uint32_t> of(std::size_t leaf) const { return {edges_.data() + first_[leaf], first_[leaf + 1] - first_[leaf]}; }
+
+ private:
+  std::vector<std::uint32_t> first_, edges_;
+};
+
+struct Cycles {
+  std::vector<std::uint32_t> order, lengths;
+  std::size_t cycle_of(std::uint32_t edge) const {
+    std::size_t at = static_cast<std::size_t>(std::find(order.begin(), order.end(), edge) - order.begin()), cycle = 0;
+    while (at >= lengths[cycle]) at -= lengths[cycle++];
+    return cycle;
+  }
+};
+
+struct Traced {
+  std::vector<std::uint32_t> leaves, counts;   // each leaf, and how many cycles it has
+  Cycles cycles;
+  std::vector<ManyLines> faces;
+};
+
+constexpr std::size_t kLeavesPerTask = 2048;
+
+/// Links the lines of a face so that no two of them join the same cycles on both sides. True if any had to change.
+bool settle(ManyLines& face, const Incidence& incidence, LeafTracer& tracer, Relinked& relinked) {
+  bool changed = false;
+  for (bool again = true; again;) {
+    again = false;
+    Cycles here, there;
+    tracer.trace(face.leaf, incidence.of(face.leaf), here.order, here.lengths);
+    tracer.trace(face.other, incidence.of(face.other), there.order, there.lengths);
+    for (std::size_t i = 0; i < face.lines.size() && !again; ++i) {
+      for (std::size_t j = i + 1; j < face.lines.size() && !again; ++j) {
+        auto &a = face.lines[i], &b = face.lines[j];
+        if (here.cycle_of(a[0]) != here.cycle_of(b[0]) || there.cycle_of(a[0]) != there.cycle_of(b[0])) continue;
+        std::swap(a[1], b[1]);   // lines run with the inside on one hand: changing their ends cuts a cycle in two
+        relinked[key_of(face.leaf, face.other)] = face.lines;
+        again = changed = true;
+      }
+    }
+  }
+  return changed;
+}
+
+}  // namespace
+
+std::optional<SurfacePatches> find_patches(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const RunOptions& run) {
+  SurfacePatches result;
+  const std::size_t leaf_count = tree.leaves().size();
+  const Incidence incidence(leaf_count, edges);
+  if (run.cancelled()) return std::nullopt;
+  std::vector<Traced> traced((leaf_count + kLeavesPerTask - 1) / kLeavesPerTask);
+  tbb::parallel_for(std::size_t{0}, traced.size(), [&](std::size_t task) {
+    if (run.cancelled()) return;
+    Traced& out = traced[task];
+    LeafTracer tracer(tree, edges);
+    for (std::size_t leaf = task * kLeavesPerTask; leaf < std::min(leaf_count, (task + 1) * kLeavesPerTask); ++leaf) {
+      if (incidence.of(leaf).empty()) continue;
+      const std::size_t before = out.cycles.lengths.size();
+      tracer.trace(static_cast<std::uint32_t>(leaf), incidence.of(leaf), out.cycles.order, out.cycles.lengths);
+      out.leaves.push_back(static_cast<std::uint32_t>(leaf));
+      out.counts.push_back(static_cast<std::uint32_t>(out.cycles.lengths.size() - before));
+    }
+    out.faces = std::move(tracer.faces);
+  });
+  if (run.cancelled()) return std::nullopt;
+
+  Relinked relinked;
+  LeafTracer tracer(tree, edges);
+  tracer.relinked = &relinked;
+  std::unordered_map<std::uint32_t, Cycles> again;
+  for (Traced& part : traced) {
+    for (ManyLines& face : part.faces) {
+      if (!settle(face, incidence, tracer, relinked)) continue;
+      ++result.relinked_faces;
+      again[face.leaf], again[face.other];
+    }
+  }
+  for (auto& [leaf, cycles] : again) tracer.trace(leaf, incidence.of(leaf), cycles.order, cycles.lengths);
+
+  result.patch_of_quadrant.assign(edges.size(), {kNoPatch, kNoPatch, kNoPatch, kNoPatch});
+  const auto take = [&](std::uint32_t leaf, const std::uint32_t* order, const std::uint32_t* lengths, std::size_t count) {
+    if (count > 1) result.crowded.push_back(leaf);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto patch = static_cast<std::uint32_t>(result.patches.size());
+      if (lengths[k] < 3 && (result.to_split.empty() || result.to_split.back() != leaf)) result.to_split.push_back(leaf);
+      result.patches.push_back({leaf, static_cast<std::uint32_t>(result.edges.size()), lengths[k]});
+      for (std::uint32_t j = 0; j < lengths[k]; ++j, ++order) {
+        result.edges.push_back(*order);
+        for (int q = 0; q < 4; ++q) {
+          if (edges[*order].leaves[q] == leaf) result.patch_of_quadrant[*order][q] = patch;
+        }
+      }
+    }
+  };
+  for (Traced& part : traced) {
+    const std::uint32_t *order = part.cycles.order.data(), *lengths = part.cycles.lengths.data();
+    for (std::size_t i = 0; i < part.leaves.size(); ++i) {
+      const std::uint32_t count = part.counts[i];
+      if (const auto other = again.empty() ? again.end() : again.find(part.leaves[i]); other != again.end()) {
+        take(part.leaves[i], other->second.order.data(), other->second.lengths.data(), other->second.lengths.size());
+      } else {
+        take(part.leaves[i], order, lengths, count);
+      }
+      for (std::uint32_t k = 0; k < count; ++k) order += *lengths++;
+    }
+    part = {};
+  }
+  return result;
+}
+
+}  // namespace cambium
