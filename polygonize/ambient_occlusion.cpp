@@ -41,10 +41,8 @@ class Obstacles {
     if (!device_) throw std::runtime_error("Embree could not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);       // what a ray hits then does not depend on how the hierarchy was built
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
     rtcSetSceneProgressMonitorFunction(scene_, go_on, this);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
     auto* const vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                        3 * sizeof(float), mesh.positions.size()));
     auto* const indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(

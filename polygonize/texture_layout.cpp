@@ -44,6 +44,7 @@ class TextureLayout {
     find_branches();
     if (run_.cancelled()) return false;
     choose_tile();
+    find_steps();
     choose_places();
     if (run_.cancelled()) return false;
     write_coordinates();
@@ -119,6 +120,12 @@ class TextureLayout {
   }
 
   int step_of(double radius) const { return step_of_wraps(kTurn * radius / (out_.tile * options_.aspect)); }
+  void find_steps() {
+    step_of_place_.resize(places_.places.size());
+    for_blocks(step_of_place_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) step_of_place_[i] = static_cast<std::int8_t>(step_of(places_.places[i].radius));
+    });
+  }
   /// From the seam on, [seam, seam + 1): where the seam lies is then all that differs between levels of detail.
   double turns_of(std::uint32_t place) const {
     const double turns = places_.places[place].turns;
@@ -202,10 +209,12 @@ class TextureLayout {
       return {use, use, use};
     }
     const auto& place = places_.places;
-    const int step = step_of((place[at[0]].radius + place[at[1]].radius + place[at[2]].radius) / 3);
+    const std::array<int, 3> own{step_of_place_[at[0]], step_of_place_[at[1]], step_of_place_[at[2]]};
+    const bool alike = own[0] == own[1] && own[0] == own[2];
+    const int step = alike ? own[0] : step_of((place[at[0]].radius + place[at[1]].radius + place[at[2]].radius) / 3);
     std::array<std::uint8_t, 3> uses{};
     for (int c = 0; c < 3; ++c)
-      uses[c] = static_cast<std::uint8_t>(2 * (std::clamp(step - step_of(place[at[c]].radius), -kSteps, kSteps) + kSteps) + round[c]);
+      uses[c] = static_cast<std::uint8_t>(2 * (std::clamp(step - own[c], -kSteps, kSteps) + kSteps) + round[c]);
     return uses;
   }
 
@@ -283,7 +292,7 @@ class TextureLayout {
       const glm::dvec2 plane = plane_of(place, use == kPlaneMirrored);
       out_.uvs[at] = {plane.x / (tile * options_.aspect), plane.y / tile};
     } else {
-      const int step = std::max(0, step_of(from.radius) + use / 2 - kSteps);
+      const int step = std::max(0, step_of_place_[place] + use / 2 - kSteps);
       out_.uvs[at] = {turns * wraps_of_step(step), v / tile};
     }
   }
@@ -295,6 +304,7 @@ class TextureLayout {
   const RunOptions& run_;
   std::vector<BranchLayout> branches_;             // ascending by id
   std::vector<std::uint32_t> layout_of_place_;
+  std::vector<std::int8_t> step_of_place_;
   std::vector<std::array<std::uint8_t, 3>> uses_;  // by corner
   std::vector<std::uint16_t> used_;                // by place
 };
