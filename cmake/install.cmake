@@ -7,7 +7,8 @@ set(public_headers
   blobtree/branch_info.h blobtree/choices.h blobtree/surface_cover.h
   skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
   lsystem/lsystem.h
-  polygonize/mesh.h polygonize/mesh_io.h polygonize/polygonize.h polygonize/verify.h polygonize/volume.h
+  polygonize/ambient_occlusion.h polygonize/decimate.h polygonize/mesh.h polygonize/mesh_attributes.h polygonize/mesh_io.h
+  polygonize/polygonize.h polygonize/verify.h polygonize/volume.h
   raytrace/bark.h raytrace/film.h raytrace/render.h)
 foreach(header ${public_headers})
   get_filename_component(folder ${header} DIRECTORY)
