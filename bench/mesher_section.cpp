@@ -1,7 +1,9 @@
 // Our mesher against the straight OpenVDB pipeline on the same tree, at equal error by the same verifier.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "bench/mesher_run.h"
@@ -21,12 +23,28 @@ struct Found {
   bool reached = false;   ///< the error that was asked for
 };
 
+/// OpenVDB's runs by voxel: searches for different errors meet at the same ones.
+class Runs {
+ public:
+  const MesherRun& at(double voxel) {
+    const auto [it, is_new] = runs_.try_emplace(voxel);
+    MesherRun& run = it->second;
+    if (is_new) {
+      run = run_mesher("vdb", voxel);
+      fmt::print(stderr, "  voxel {:.3f} mm: {} triangles, max {:.3f} mm, 99.9 % {:.3f} mm, {:.1f} s\n", 1e3 * voxel, run.triangles,
+                 1e3 * run.max, 1e3 * run.p999, run.seconds);
+    }
+    return run;
+  }
+
+ private:
+  std::map<double, MesherRun> runs_;
+};
+
 /// The coarsest voxel whose error is at most `error`. The finest if none is.
-Found search_voxel(double MesherRun::*error_of, double error) {
+Found search_voxel(Runs& runs, double MesherRun::*error_of, double error) {
   const auto run_at = [&](double voxel) {
-    const MesherRun run = run_mesher("vdb", voxel);
-    fmt::print(stderr, "  voxel {:.3f} mm: {} triangles, max {:.3f} mm, 99.9 % {:.3f} mm, {:.1f} s\n", 1e3 * voxel, run.triangles,
-               1e3 * run.max, 1e3 * run.p999, run.seconds);
+    const MesherRun& run = runs.at(voxel);
     return Found{voxel, run, run.*error_of <= error};
   };
   // Down from a coarse grid, so that fine ones, which take gigabytes, are made only where they must be.
@@ -71,8 +89,9 @@ void mesher_section(Report& report, const Pace&) {
   report.heading("Meshes of a tree of 10^4 internodes, thinnest twigs 2 mm across, 2 threads, each in its own process");
   const MesherRun ours = run_mesher("ours", kTolerance);
   add_mesher(report, fmt::format("polygonize, tolerance {:g} mm", 1e3 * kTolerance), ours, nullptr);
+  Runs runs;
   const auto compare = [&](double MesherRun::*error, const char* what) {
-    const Found found = search_voxel(error, ours.*error);
+    const Found found = search_voxel(runs, error, ours.*error);
     add_mesher(report, fmt::format("OpenVDB at {:.3g} mm", 1e3 * found.voxel), found.run, &ours);
     report.note(found.reached ? fmt::format("the coarsest voxel of that pipeline whose {} error is no larger", what)
                               : fmt::format("the finest voxel tried: the pipeline does not reach our {} error there", what));
