@@ -173,6 +173,9 @@ TEST_F(BadInput, OptionsAreNamed) {
     expect_refused({"mesh", input, "-o", at("a.obj"), "--max-triangles", count}, "--max-triangles: ");
   for (const char* levels : {"0", "5k,5k", "5k,6k", "5k,", ",5k", "5k,two", "5k 2k"})
     expect_refused({"mesh", input, "-o", at("a.obj"), "--lod", levels}, "--lod: ");
+  for (const char* sides : {"3", "65", "six", "-6"})
+    expect_refused({"mesh", input, "-o", at("a.obj"), "--min-sides", sides}, "cambium: found bad usage");
+  expect_refused({"mesh", input, "-o", at("a.obj"), "--preview=soon"}, "cambium: found bad usage");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--lod"}, "cambium: found bad usage");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--verify=maybe"}, "cambium: found bad usage");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--voxel", "1cm", "--tolerance", "1cm"}, "cambium: found bad usage");

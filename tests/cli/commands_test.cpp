@@ -106,7 +106,7 @@ TEST_F(Commands, MeshWritesEveryFormatFromEveryInput) {
     const Json json = figures({"mesh", at("tiny.tree.toml"), "-o", at(output)});
     EXPECT_GT(json["triangles"].get<int>(), 100);
     EXPECT_EQ(json["components"], 1);
-    EXPECT_DOUBLE_EQ(json["voxel"].get<double>(), 0.04);
+    EXPECT_DOUBLE_EQ(json["smallest_cell"].get<double>(), 0.04);
     EXPECT_GT(folder_.read(output).size(), 1000u);
   }
   for (const char* input : {"tiny.l", "tiny.skel.json", "tiny.swc", "tiny.csv", "tiny.blob.json"}) {
@@ -115,11 +115,24 @@ TEST_F(Commands, MeshWritesEveryFormatFromEveryInput) {
   }
 }
 
-TEST_F(Commands, ToleranceIsHalfACellAndOverridesTheRecipe) {
-  EXPECT_DOUBLE_EQ(figures({"mesh", at("tiny.tree.toml"), "-o", at("a.obj"), "--tolerance", "3cm"})["voxel"].get<double>(),
-                   0.06);
-  EXPECT_DOUBLE_EQ(
-      figures({"mesh", at("tiny.tree.toml"), "-o", at("a.obj"), "--set", "mesh.voxel=5cm"})["voxel"].get<double>(), 0.05);
+TEST_F(Commands, ToleranceOverridesTheRecipesVoxel) {
+  const Json json = figures({"mesh", at("tiny.tree.toml"), "-o", at("a.obj"), "--tolerance", "3cm"});
+  EXPECT_DOUBLE_EQ(json["tolerance"].get<double>(), 0.03);
+  const Json uniform = figures({"mesh", at("tiny.tree.toml"), "-o", at("a.obj"), "--set", "mesh.voxel=5cm"});
+  EXPECT_DOUBLE_EQ(uniform["smallest_cell"].get<double>(), 0.05);
+  EXPECT_FALSE(uniform.contains("tolerance"));
+}
+
+TEST_F(Commands, MoreSidesAreMoreTrianglesAndAPreviewIsFewer) {
+  const auto triangles = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"mesh", at("tiny.skel.json"), "-o", at("a.off"), "--tolerance", "2cm"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return figures(arguments)["triangles"].get<int>();
+  };
+  const int usual = triangles({});
+  EXPECT_GT(triangles({"--min-sides", "32"}), usual);
+  EXPECT_LT(triangles({"--preview"}), usual);
+  EXPECT_EQ(triangles({"--set", "mesh.min_sides=32"}), triangles({"--min-sides", "32"}));
 }
 
 TEST_F(Commands, LevelsOfDetailGoIntoOneGlbAndOneFileEachOtherwise) {
