@@ -1,10 +1,8 @@
 #include "polygonize/hermite.h"
 
-#include "polygonize/cube_edges.h"
 #include "polygonize/field_batch.h"
 #include "polygonize/groups.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -116,55 +114,16 @@ class RootFinder {
 
 }  // namespace
 
-Vec3 edge_point(const SurfaceOctree& tree, const MinimalEdge& edge, double t) {
-  const OctreeLeaf& owner = tree.leaves()[edge.owner()];
-  const int corner = edge_low_corner(edge.edge_of_owner());
-  CellPlace place = owner.place;
-  for (int a = 0; a < 3; ++a) place[a] += static_cast<std::uint32_t>(corner >> a & 1) << owner.level;
-  Vec3 p = tree.point(place);
-  if (t > 0) {
-    place[edge.axis] += 1u << owner.level;
-    p[edge.axis] += t * (tree.point(place)[edge.axis] - p[edge.axis]);
-  }
-  return p;
-}
-
-std::vector<std::uint32_t> earlier_edges(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges,
-                                         const std::vector<MinimalEdge>& earlier) {
-  std::vector<std::uint32_t> found(edges.size(), kNoEdge);
-  if (earlier.empty()) return found;
-  const Groups by_owner(tree.leaves().size(), earlier.size(), [&](std::size_t i) { return earlier[i].owner(); });
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 4096), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      for (const std::uint32_t e : by_owner.of(edges[i].owner())) {
-        if (earlier[e].edge_of_owner() == edges[i].edge_of_owner()) found[i] = e;
-      }
-    }
-  });
-  return found;
-}
-
-std::optional<std::vector<Crossing>> find_crossings(const SurfaceOctree& tree, const SurfaceCover& cover,
-                                                    const std::vector<MinimalEdge>& edges, const std::vector<std::uint32_t>& earlier,
-                                                    const std::vector<Crossing>& known, const RunOptions& run) {
-  std::vector<Crossing> crossings(edges.size());
-  std::vector<std::uint32_t> wanted;
-  for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    if (earlier[i] != kNoEdge) {
-      crossings[i] = known[earlier[i]];
-    } else {
-      wanted.push_back(i);
-    }
-  }
-  const Groups by_cell(cover.size(), wanted.size(), [&](std::size_t i) { return tree.leaves()[edges[wanted[i]].owner()].cell; });
+bool find_crossings(const SurfaceOctree& tree, const SurfaceCover& cover, const std::vector<std::uint32_t>& edges,
+                    Contour& contour, const RunOptions& run) {
+  const Groups by_cell(cover.size(), edges.size(), [&](std::size_t i) { return tree.leaves()[contour.edges[edges[i]].owner()].cell; });
   tbb::enumerable_thread_specific<RootFinder> finders;
   tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t cell) {
     const auto items = by_cell.of(cell);
     if (items.empty() || run.cancelled()) return;
-    finders.local().find(tree, cover.cube_field(cell), edges, wanted, items, crossings);
+    finders.local().find(tree, cover.cube_field(cell), contour.edges, edges, items, contour.crossings);
   });
-  if (run.cancelled()) return std::nullopt;
-  return crossings;
+  return !run.cancelled();
 }
 
 }  // namespace cambium

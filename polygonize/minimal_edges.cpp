@@ -111,11 +111,7 @@ class Walk {
     const int mask = tree_.leaves()[found.owner()].mask, e = found.edge_of_owner();
     if (!edge_crossed(mask, e)) return;
     found.low_inside = mask >> edge_low_corner(e) & 1;
-    for (int q = 0; q < 4; ++q) {
-      if (tree_.must_split(found.leaves[q], a, q, finest_level, found.leaves[q ^ 1] == found.leaves[q] || found.leaves[q ^ 2] == found.leaves[q])) {
-        found_.to_split.push_back(found.leaves[q]);
-      }
-    }
+    append_unsettled(tree_, found, found_.to_split);
     found_.edges.push_back(found);
   }
 
@@ -151,6 +147,33 @@ std::optional<MinimalEdges> crossed_minimal_edges(const SurfaceOctree& tree, con
     parts[i] = {};
   });
   return result;
+}
+
+std::optional<MinimalEdge> minimal_edge_of(const SurfaceOctree& tree, std::uint32_t leaf, int e) {
+  const OctreeLeaf& own = tree.leaves()[leaf];
+  if (!edge_crossed(own.mask, e)) return std::nullopt;
+  MinimalEdge edge;
+  edge.axis = static_cast<std::uint8_t>(e / 4);
+  edge.low_inside = own.mask >> edge_low_corner(e) & 1;
+  const int quadrant = 3 - e % 4;
+  for (int q = 0; q < 4; ++q) {
+    edge.leaves[q] = leaf;
+    if (q == quadrant) continue;
+    const auto found = tree.find_beside(own, edge.axis, quadrant, q);
+    if (!found || tree.leaves()[*found].level < own.level) return std::nullopt;
+    edge.leaves[q] = *found;
+  }
+  while (tree.leaves()[edge.leaves[edge.finest]].level != own.level) ++edge.finest;
+  return edge;
+}
+
+void append_unsettled(const SurfaceOctree& tree, const MinimalEdge& edge, std::vector<std::uint32_t>& to_split) {
+  const int finest = tree.leaves()[edge.owner()].level;
+  for (int q = 0; q < 4; ++q) {
+    const std::uint32_t leaf = edge.leaves[q];
+    const bool spans = edge.leaves[q ^ 1] == leaf || edge.leaves[q ^ 2] == leaf;
+    if (tree.must_split(leaf, edge.axis, q, finest, spans)) to_split.push_back(leaf);
+  }
 }
 
 }  // namespace cambium

@@ -36,4 +36,9 @@ struct MinimalEdges {
 /// nullopt if cancelled. Cost: linear in the octree's nodes.
 std::optional<MinimalEdges> crossed_minimal_edges(const SurfaceOctree& tree, const RunOptions& run);
 
+/// The minimal edge that edge `e` (cube_edges.h) of a leaf is, if it is crossed and no finer leaf divides it.
+std::optional<MinimalEdge> minimal_edge_of(const SurfaceOctree& tree, std::uint32_t leaf, int e);
+/// Appends the leaves around an edge that must be split.
+void append_unsettled(const SurfaceOctree& tree, const MinimalEdge& edge, std::vector<std::uint32_t>& to_split);
+
 }  // namespace cambium

@@ -2,6 +2,7 @@
 
 #include "polygonize/crease_point.h"
 #include "polygonize/groups.h"
+#include "polygonize/polygon_ring.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -74,26 +75,6 @@ double diagonal_score(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
   return worst * (1.1 + glm::dot(first, second));
 }
 
-/// The polygon's patches in ring order, counter-clockwise seen from outside, each once; quadrant: where each was found first.
-struct Ring {
-  std::array<std::uint32_t, 4> patches{};
-  std::array<std::array<int, 2>, 4> across{};   ///< the quadrants on both sides of the face to the next
-  int count = 0;
-};
-
-Ring ring_of(const MinimalEdge& edge, const std::array<std::uint32_t, 4>& patch_of) {
-  Ring ring;
-  for (int k = 0; k < 4; ++k) {
-    const int q = edge.low_inside ? kRing[k] : kRing[3 - k];
-    const int next = edge.low_inside ? kRing[(k + 1) % 4] : kRing[(6 - k) % 4];
-    if (edge.leaves[q] == edge.leaves[next]) continue;
-    ring.patches[ring.count] = patch_of[q];
-    ring.across[ring.count] = {q, next};
-    ++ring.count;
-  }
-  return ring;
-}
-
 /// The face between the leaves in two neighbouring quadrants: its axis and plane, and where it reaches.
 struct Face {
   int axis = 0;
@@ -140,8 +121,7 @@ struct FaceVertex {
 class PolygonBuilder {
  public:
   PolygonBuilder(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<Vec3>& positions)
-      : tree_(tree), cover_(cover), edges_(contour.edges), crossings_(contour.crossings), patches_(contour.patches),
-        placed_(contour.placed), positions_(positions), creases_(crease_edges(contour)) {}
+      : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings), positions_(positions), creases_(crease_edges(contour)) {}
 
   std::optional<DualMesh> build(const RunOptions& run) {
     find_faces();
@@ -170,7 +150,7 @@ class PolygonBuilder {
       for (std::size_t i = task * kGrain; i < std::min(edges_.size(), (task + 1) * kGrain); ++i) {
         const MinimalEdge& edge = edges_[i];
         const EdgeFrame frame(tree_, edge);
-        const Ring ring = ring_of(edge, patches_.patch_of_quadrant[i]);
+        const Ring ring = ring_of(edge, contour_.patch_of_quadrant[i]);
         for (int k = 0; k < ring.count; ++k) {
           const std::uint32_t p = ring.patches[k], r = ring.patches[(k + 1) % ring.count];
           const auto [q, next] = ring.across[k];
@@ -252,7 +232,7 @@ class PolygonBuilder {
     }
   }
 
-  Vec3 crossing_point(std::uint32_t edge) const { return edge_point(tree_, edges_[edge], static_cast<double>(crossings_[edge].t)); }
+  Vec3 crossing_point(std::uint32_t edge) const { return cambium::crossing_point(tree_, contour_, edge); }
 
   const FaceVertex* face_of(std::uint32_t p, std::uint32_t r) const {
     const std::array<std::uint32_t, 2> key{std::min(p, r), std::max(p, r)};
@@ -269,7 +249,7 @@ class PolygonBuilder {
   }
 
   Plan plan_of(std::size_t i) const {
-    const Ring ring = ring_of(edges_[i], patches_.patch_of_quadrant[i]);
+    const Ring ring = ring_of(edges_[i], contour_.patch_of_quadrant[i]);
     int faces = 0;
     for (int k = 0; k < ring.count; ++k) faces += face_of(ring.patches[k], ring.patches[(k + 1) % ring.count]) != nullptr;
     Plan plan;
@@ -296,7 +276,7 @@ class PolygonBuilder {
   DualMesh write() const {
     DualMesh result;
     Mesh& mesh = result.mesh;
-    const std::size_t patch_count = placed_.vertices.size();
+    const std::size_t patch_count = contour_.vertices.size();
     std::vector<std::size_t> first_triangle(edges_.size() + 1, 0), edge_vertex(edges_.size() + 1, patch_count + faces_.size());
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       first_triangle[i + 1] = first_triangle[i] + plans_[i].triangles;
@@ -309,7 +289,7 @@ class PolygonBuilder {
     mesh.triangles.resize(first_triangle.back());
     for (std::size_t i = 0; i < patch_count; ++i) {
       mesh.positions[i] = positions_[i];
-      mesh.normals[i] = placed_.vertices[i].normal;
+      mesh.normals[i] = contour_.vertices[i].normal;
     }
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       mesh.positions[patch_count + i] = faces_[i].position;
@@ -330,7 +310,7 @@ class PolygonBuilder {
   }
 
   void write_polygon(std::size_t i, std::uint32_t center, std::array<std::uint32_t, 3>* out, Mesh& mesh) const {
-    const Ring ring = ring_of(edges_[i], patches_.patch_of_quadrant[i]);
+    const Ring ring = ring_of(edges_[i], contour_.patch_of_quadrant[i]);
     const auto& v = ring.patches;
     if (!plans_[i].fan) {
       if (ring.count == 3) {
@@ -349,7 +329,7 @@ class PolygonBuilder {
     for (int k = 0; k < ring.count; ++k) {
       const std::uint32_t next = v[(k + 1) % ring.count];
       if (const FaceVertex* face = face_of(v[k], next)) {
-        const auto between = static_cast<std::uint32_t>(placed_.vertices.size() + static_cast<std::size_t>(face - faces_.data()));
+        const auto between = static_cast<std::uint32_t>(contour_.vertices.size() + static_cast<std::size_t>(face - faces_.data()));
         *out++ = {center, v[k], between};
         *out++ = {center, between, next};
       } else {
@@ -361,7 +341,7 @@ class PolygonBuilder {
   void write_creases(Mesh& mesh) const {
     for (const auto& crease : creases_) {
       if (const FaceVertex* face = face_of(crease[0], crease[1])) {
-        const auto between = static_cast<std::uint32_t>(placed_.vertices.size() + static_cast<std::size_t>(face - faces_.data()));
+        const auto between = static_cast<std::uint32_t>(contour_.vertices.size() + static_cast<std::size_t>(face - faces_.data()));
         mesh.creases.push_back({crease[0], between});
         mesh.creases.push_back({crease[1], between});
       } else {
@@ -373,70 +353,16 @@ class PolygonBuilder {
 
   const SurfaceOctree& tree_;
   const SurfaceCover& cover_;
+  const Contour& contour_;
   const std::vector<MinimalEdge>& edges_;
   const std::vector<Crossing>& crossings_;
-  const SurfacePatches& patches_;
-  const PatchVertices& placed_;
   const std::vector<Vec3>& positions_;
   const std::vector<std::array<std::uint32_t, 2>> creases_;
   std::vector<FaceVertex> faces_;
   std::vector<Plan> plans_;
 };
 
-/// How far outside of a polygon's mean plane the surface is where it crosses the polygon's edge, metres. Of a polygon that is folded
-/// flat, the distance to the nearest corner.
-double height_over(const Ring& ring, const std::vector<Vec3>& positions, const Vec3& x) {
-  std::array<Vec3, 4> p;
-  Vec3 mean(0.0);
-  double nearest = kInfinity;
-  for (int k = 0; k < ring.count; ++k) {
-    p[k] = positions[ring.patches[k]] - x;
-    mean += p[k];
-    nearest = std::min(nearest, glm::length(p[k]));
-  }
-  mean /= static_cast<double>(ring.count);
-  const Vec3 area = ring.count == 3 ? glm::cross(p[1] - p[0], p[2] - p[0]) : glm::cross(p[2] - p[0], p[3] - p[1]);
-  const double length = glm::length(area);
-  const double height = length > 0 ? -glm::dot(mean, area) / length : kInfinity;
-  return std::abs(height) < nearest ? height : std::copysign(nearest, height);
-}
-
 }  // namespace
-
-BalancedVertices balance_vertices(const SurfaceOctree& tree, const Contour& contour, double tolerance) {
-  const std::vector<MinimalEdge>& edges = contour.edges;
-  BalancedVertices result;
-  result.positions.resize(contour.placed.vertices.size());
-  result.errors.resize(edges.size());
-  for (std::size_t i = 0; i < result.positions.size(); ++i) result.positions[i] = contour.placed.vertices[i].position;
-  const auto measure = [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), kGrain), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        const Vec3 x = edge_point(tree, edges[i], static_cast<double>(contour.crossings[i].t));
-        result.errors[i] =
-            static_cast<float>(height_over(ring_of(edges[i], contour.patches.patch_of_quadrant[i]), result.positions, x));
-      }
-    });
-  };
-  measure();
-  const std::vector<Patch>& patches = contour.patches.patches;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), kGrain), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const PatchVertex& vertex = contour.placed.vertices[i];
-      if (vertex.crease) continue;
-      double sum = 0;
-      for (const std::uint32_t e : contour.patches.edges_of(patches[i])) sum += static_cast<double>(result.errors[e]);
-      const double outwards = std::clamp(0.5 * sum / patches[i].edge_count, -0.5 * tolerance, 0.5 * tolerance);
-      const OctreeLeaf& leaf = tree.leaves()[patches[i].leaf];
-      const Box box = tree.box(leaf);
-      const double margin = kVertexMargin * tree.edge(leaf);
-      result.positions[i] = glm::clamp(vertex.position + outwards * Vec3(vertex.normal), box.lo + margin, box.hi - margin);
-    }
-  });
-  measure();
-  for (float& error : result.errors) error = std::abs(error);
-  return result;
-}
 
 std::optional<DualMesh> build_polygons(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
                                        const std::vector<Vec3>& positions, const RunOptions& run) {

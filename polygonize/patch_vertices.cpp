@@ -4,7 +4,6 @@
 #include "polygonize/field_batch.h"
 #include "polygonize/groups.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -38,8 +37,7 @@ class VertexPlacer {
  public:
   VertexPlacer(const SurfaceOctree& tree, const Contour& contour, const std::vector<std::uint32_t>& wanted,
                std::vector<PatchVertex>& vertices)
-      : tree_(tree), edges_(contour.edges), crossings_(contour.crossings), patches_(contour.patches), wanted_(wanted),
-        vertices_(vertices) {}
+      : tree_(tree), contour_(contour), wanted_(wanted), vertices_(vertices) {}
 
   std::vector<CreaseExit> exits;
 
@@ -58,10 +56,10 @@ class VertexPlacer {
   }
 
  private:
-  Vec3 crossing_point(std::uint32_t edge) const { return edge_point(tree_, edges_[edge], static_cast<double>(crossings_[edge].t)); }
+  Vec3 crossing_point(std::uint32_t edge) const { return cambium::crossing_point(tree_, contour_, edge); }
 
   void begin(std::uint32_t id) {
-    const Patch& patch = patches_.patches[id];
+    const Patch& patch = contour_.patches[id];
     const OctreeLeaf& leaf = tree_.leaves()[patch.leaf];
     Placed placed;
     placed.patch = id;
@@ -69,15 +67,15 @@ class VertexPlacer {
     placed.edge = tree_.edge(leaf);
     Vec3 mass(0.0);
     glm::vec3 normals(0.0f);
-    for (const std::uint32_t e : patches_.edges_of(patch)) {
+    for (const std::uint32_t e : contour_.ring(placed.patch)) {
       mass += crossing_point(e) - placed.box.lo;
-      normals += crossings_[e].normal;
+      normals += contour_.crossings[e].normal;
     }
     placed.at = clamp_into(placed.box.lo + mass / static_cast<double>(patch.edge_count), placed.box, kVertexMargin * placed.edge);
     const float length = glm::length(normals);
     if (length > 1e-3f) placed.mean_normal = normals / length;
-    for (const std::uint32_t e : patches_.edges_of(patch)) {
-      placed.spread = std::min(placed.spread, glm::dot(placed.mean_normal, crossings_[e].normal));
+    for (const std::uint32_t e : contour_.ring(placed.patch)) {
+      placed.spread = std::min(placed.spread, glm::dot(placed.mean_normal, contour_.crossings[e].normal));
     }
     placed.best = placed.at;
     placed.best_distance = static_cast<float>(kInfinity);
@@ -116,8 +114,7 @@ class VertexPlacer {
   }
 
   void place_on_crease(const PrunedField& field, const Placed& placed, PatchVertex& vertex) {
-    const Patch& patch = patches_.patches[placed.patch];
-    const auto ring = patches_.edges_of(patch);
+    const auto ring = contour_.ring(placed.patch);
     sides_.clear();
     side_of_.clear();
     for (const std::uint32_t e : ring) {
@@ -145,9 +142,7 @@ class VertexPlacer {
   }
 
   const SurfaceOctree& tree_;
-  const std::vector<MinimalEdge>& edges_;
-  const std::vector<Crossing>& crossings_;
-  const SurfacePatches& patches_;
+  const Contour& contour_;
   const std::vector<std::uint32_t>& wanted_;
   std::vector<PatchVertex>& vertices_;
   Evaluator evaluator_;
@@ -160,91 +155,22 @@ class VertexPlacer {
   Choices choice_;
 };
 
-/// The patch of `before` that is the same as a patch of now, because all of its crossings are, or kNoPatch.
-std::uint32_t earlier_patch(const Contour& now, const Patch& patch, const std::vector<std::uint32_t>& earlier, const Contour& before) {
-  std::uint32_t found = kNoPatch;
-  for (const std::uint32_t e : now.patches.edges_of(patch)) {
-    const std::uint32_t was = earlier[e];
-    if (was == kNoEdge) return kNoPatch;
-    std::uint32_t its = kNoPatch;
-    for (int q = 0; q < 4; ++q) {
-      if (before.edges[was].leaves[q] == patch.leaf) its = before.patches.patch_of_quadrant[was][q];
-    }
-    if (its == kNoPatch || (found != kNoPatch && its != found)) return kNoPatch;
-    found = its;
-  }
-  return before.patches.patches[found].edge_count == patch.edge_count ? found : kNoPatch;
-}
-
-/// The patch on the other side of the face that two edges of a patch bound.
-std::uint32_t patch_across(const SurfacePatches& patches, const CreaseExit& exit) {
-  const auto& a = patches.patch_of_quadrant[exit.edge];
-  const auto& b = patches.patch_of_quadrant[exit.next_edge];
-  const auto beside = [&](const std::array<std::uint32_t, 4>& around, int k) {
-    return around[kRing[(k + 1) % 4]] == exit.patch || around[kRing[(k + 3) % 4]] == exit.patch;
-  };
-  for (int k = 0; k < 4; ++k) {
-    const std::uint32_t other = a[kRing[k]];
-    if (other == exit.patch || !beside(a, k)) continue;
-    for (int j = 0; j < 4; ++j) {
-      if (b[kRing[j]] == other && beside(b, j)) return other;
-    }
-  }
-  return kNoPatch;
-}
-
 }  // namespace
 
-std::optional<PatchVertices> place_vertices(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& now,
-                                            const std::vector<std::uint32_t>& earlier, const Contour& before, const RunOptions& run) {
-  PatchVertices result;
-  const std::vector<Patch>& patches = now.patches.patches;
-  result.vertices.resize(patches.size());
-  std::vector<std::uint32_t> same(patches.size(), kNoPatch);
-  if (!before.edges.empty()) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, patches.size(), 4096), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) same[i] = earlier_patch(now, patches[i], earlier, before);
-    });
-  }
-  std::vector<std::uint32_t> wanted;
-  for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    if (same[i] == kNoPatch) {
-      wanted.push_back(i);
-      continue;
-    }
-    result.vertices[i] = before.placed.vertices[same[i]];
-    if (!result.vertices[i].crease) continue;
-    const auto known = std::equal_range(before.placed.exits.begin(), before.placed.exits.end(), CreaseExit{same[i], 0, 0},
-                                        [](const CreaseExit& a, const CreaseExit& b) { return a.patch < b.patch; });
-    const auto ring = now.patches.edges_of(patches[i]);
-    const auto now_edge = [&](std::uint32_t was) { return *std::find_if(ring.begin(), ring.end(), [&](auto e) { return earlier[e] == was; }); };
-    for (auto exit = known.first; exit != known.second; ++exit) {
-      result.exits.push_back({i, now_edge(exit->edge), now_edge(exit->next_edge)});
-    }
-  }
-  const Groups by_cell(cover.size(), wanted.size(), [&](std::size_t i) { return tree.leaves()[patches[wanted[i]].leaf].cell; });
-  tbb::enumerable_thread_specific<VertexPlacer> placers([&] { return VertexPlacer(tree, now, wanted, result.vertices); });
+bool place_vertices(const SurfaceOctree& tree, const SurfaceCover& cover, const std::vector<std::uint32_t>& patches,
+                    Contour& contour, const RunOptions& run) {
+  const Groups by_cell(cover.size(), patches.size(),
+                       [&](std::size_t i) { return tree.leaves()[contour.patches[patches[i]].leaf].cell; });
+  tbb::enumerable_thread_specific<VertexPlacer> placers([&] { return VertexPlacer(tree, contour, patches, contour.vertices); });
   tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t cell) {
     const auto items = by_cell.of(cell);
     if (items.empty() || run.cancelled()) return;
     placers.local().place(cover.cube_field(cell), items);
   });
-  if (run.cancelled()) return std::nullopt;
-  for (const VertexPlacer& placer : placers) result.exits.insert(result.exits.end(), placer.exits.begin(), placer.exits.end());
-  std::sort(result.exits.begin(), result.exits.end());
-  return result;
-}
-
-std::vector<std::array<std::uint32_t, 2>> crease_edges(const Contour& contour) {
-  std::vector<std::array<std::uint32_t, 2>> creases;
-  for (const CreaseExit& exit : contour.placed.exits) {
-    const std::uint32_t other = patch_across(contour.patches, exit);
-    if (other == kNoPatch || !contour.placed.vertices[other].crease) continue;
-    creases.push_back({std::min(exit.patch, other), std::max(exit.patch, other)});
-  }
-  std::sort(creases.begin(), creases.end());
-  creases.erase(std::unique(creases.begin(), creases.end()), creases.end());
-  return creases;
+  const std::size_t before = contour.exits.size();
+  for (const VertexPlacer& placer : placers) contour.exits.insert(contour.exits.end(), placer.exits.begin(), placer.exits.end());
+  std::sort(contour.exits.begin() + static_cast<std::ptrdiff_t>(before), contour.exits.end());
+  return !run.cancelled();
 }
 
 }  // namespace cambium

@@ -6,6 +6,7 @@
 #include "polygonize/mesh_components.h"
 #include "polygonize/patch_polygons.h"
 #include "polygonize/thinnest_radius.h"
+#include "polygonize/vertex_balance.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -63,90 +64,78 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
 }
 
 // The larger leaves of polygons that are too far from the surface.
-std::vector<std::uint32_t> leaves_to_refine(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges,
-                                            const std::vector<float>& errors, double tolerance) {
-  std::vector<std::uint32_t> leaves;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (!(errors[i] > tolerance)) continue;
+std::vector<std::uint32_t> leaves_to_refine(const ContourRefiner& refiner, const VertexBalance& balance, double tolerance) {
+  const std::vector<OctreeLeaf>& leaves = refiner.tree().leaves();
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t e : balance.changed_edges()) {
+    if (!(balance.error(e) > tolerance)) continue;
     int largest = 0;
-    for (const std::uint32_t leaf : edges[i].leaves) largest = std::max<int>(largest, tree.leaves()[leaf].level);
+    for (const std::uint32_t leaf : refiner.contour().edges[e].leaves) largest = std::max<int>(largest, leaves[leaf].level);
     if (largest == 0) continue;
-    for (const std::uint32_t leaf : edges[i].leaves)
-      if (tree.leaves()[leaf].level == largest) leaves.push_back(leaf);
+    for (const std::uint32_t leaf : refiner.contour().edges[e].leaves)
+      if (leaves[leaf].level == largest) found.push_back(leaf);
   }
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-  return leaves;
+  return found;
 }
 
 /// An octree fine enough, and what was contoured on it.
 struct Contoured {
   SurfaceOctree tree;
   Contour contour;
-  BalancedVertices balanced;
-  std::size_t rounds = 0;
+  std::vector<Vec3> positions;
 };
 
-/// Edges and patches of the octree, which is cut where they would not make a manifold. nullopt if cancelled.
-std::optional<Contour> find_topology(SurfaceOctree& tree, const SurfaceCover& cover, const RunOptions& run) {
-  for (;;) {
-    auto found = crossed_minimal_edges(tree, run);
-    if (!found) return std::nullopt;
-    if (!found->to_split.empty()) {
-      if (!tree.split(cover, std::move(found->to_split), run)) return std::nullopt;
-      continue;
-    }
-    auto patches = find_patches(tree, found->edges, run);
-    if (!patches) return std::nullopt;
-    if (patches->to_split.empty()) return Contour{std::move(found->edges), std::move(*patches), {}, {}};
-    if (!tree.split(cover, std::move(patches->to_split), run)) return std::nullopt;
-  }
-}
-
 // Contours, measures, and cuts the leaves of polygons that are off, until none is.
-std::optional<Contoured> contour(const SurfaceCover& cover, const Plan& plan, const RunOptions& run) {
+std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& plan, PolygonizeReport& report, const RunOptions& run) {
+  ProgressMeter progress(run, "contouring");
   auto tree = SurfaceOctree::build(cover, plan.finer, plan.leaves, run);
   if (!tree) return std::nullopt;
-  Contoured result{std::move(*tree), {}, {}, 0};
-  ProgressMeter progress(run, "contouring");
   progress.add(0.3);
-  for (;; ++result.rounds) {
-    auto next = find_topology(result.tree, cover, run);
-    if (!next) return std::nullopt;
-    const std::vector<std::uint32_t> earlier = earlier_edges(result.tree, next->edges, result.contour.edges);
-    auto crossings = find_crossings(result.tree, cover, next->edges, earlier, result.contour.crossings, run);
-    if (!crossings) return std::nullopt;
-    next->crossings = std::move(*crossings);
-    auto placed = place_vertices(result.tree, cover, *next, earlier, result.contour, run);
-    if (!placed) return std::nullopt;
-    next->placed = std::move(*placed);
-    result.contour = std::move(*next);
-    result.balanced = balance_vertices(result.tree, result.contour, plan.tolerance);
-    const auto leaves = leaves_to_refine(result.tree, result.contour.edges, result.balanced.errors, plan.tolerance);
-    progress.add(std::ldexp(0.35, -static_cast<int>(result.rounds)));
-    if (leaves.empty() || result.rounds >= kMostRounds) break;
-    if (!result.tree.split(cover, leaves, run)) return std::nullopt;
+  auto refiner = ContourRefiner::begin(*std::move(tree), cover, run);
+  if (!refiner) return std::nullopt;
+  VertexBalance balance(plan.tolerance);
+  for (;; ++report.rounds) {
+    if (!refiner->place(run)) return std::nullopt;
+    balance.update(refiner->tree(), refiner->contour(), refiner->new_patches());
+    progress.add(std::ldexp(0.35, -static_cast<int>(report.rounds)));
+    std::vector<std::uint32_t> leaves;
+    if (report.rounds < kMostRounds) leaves = leaves_to_refine(*refiner, balance, plan.tolerance);
+    if (leaves.empty()) break;
+    if (!refiner->split(std::move(leaves), run)) return std::nullopt;
   }
+  report.relinked_faces = refiner->relinked_faces();
+  const Contour& whole = refiner->contour();
+  std::vector<Vec3> positions;
+  for (std::uint32_t p = 0; p < whole.patches.size(); ++p)
+    if (whole.patches[p].alive()) positions.push_back(balance.positions()[p]);
+  for (std::uint32_t e = 0; e < whole.edges.size(); ++e) {
+    if (whole.edge_alive[e]) report.largest_error = std::max(report.largest_error, static_cast<double>(balance.error(e)));
+  }
+  Contour compact = compacted(whole);
   progress.finish();
-  return result;
+  return Contoured{std::move(*refiner).take_tree(), std::move(compact), std::move(positions)};
 }
 
 void report_cells(const Contoured& made, PolygonizeReport& report) {
-  const SurfaceOctree& tree = made.tree;
-  report.rounds = made.rounds;
-  report.cells = made.contour.patches.patches.size();
-  report.relinked_faces = made.contour.patches.relinked_faces;
+  const std::vector<Patch>& patches = made.contour.patches;
+  report.cells = patches.size();
   int finest = kMostLevels, coarsest = 0;
-  for (const Patch& patch : made.contour.patches.patches) {
-    const int level = tree.leaves()[patch.leaf].level;
+  for (const Patch& patch : patches) {
+    const int level = made.tree.leaves()[patch.leaf].level;
     finest = std::min(finest, level), coarsest = std::max(coarsest, level);
   }
-  if (report.cells > 0) {
-    report.smallest_cell = std::ldexp(tree.grid().cell, finest);
-    report.largest_cell = std::ldexp(tree.grid().cell, coarsest);
+  if (!patches.empty()) {
+    report.smallest_cell = std::ldexp(made.tree.grid().cell, finest);
+    report.largest_cell = std::ldexp(made.tree.grid().cell, coarsest);
   }
-  for (const float error : made.balanced.errors) report.largest_error = std::max(report.largest_error, static_cast<double>(error));
-  for (const std::uint32_t leaf : made.contour.patches.crowded) report.uncertain.push_back(tree.box(tree.leaves()[leaf]).center());
+  std::vector<std::uint32_t> crowded;
+  for (const Patch& patch : patches) crowded.push_back(patch.leaf);
+  std::sort(crowded.begin(), crowded.end());
+  for (std::size_t i = 1; i < crowded.size(); ++i) {
+    if (crowded[i] == crowded[i - 1] && (i < 2 || crowded[i] != crowded[i - 2])) {
+      report.uncertain.push_back(made.tree.box(made.tree.leaves()[crowded[i]]).center());
+    }
+  }
 }
 
 std::optional<Polygonized> polygonize_in_arena(const Field& field, const PolygonizeOptions& options, const RunOptions& run) {
@@ -161,10 +150,10 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   const Plan plan = make_plan(field, options);
   const auto cover = cover_surface(field, plan.cover, run);
   if (!cover) return std::nullopt;
-  const auto made = contour(*cover, plan, run);
+  const auto made = contour_field(*cover, plan, result.report, run);
   if (!made) return std::nullopt;
   ProgressMeter progress(run, "joining polygons");
-  auto built = build_polygons(made->tree, *cover, made->contour, made->balanced.positions, run);
+  auto built = build_polygons(made->tree, *cover, made->contour, made->positions, run);
   if (!built) return std::nullopt;
   progress.add(0.7);
   result.mesh = std::move(built->mesh);

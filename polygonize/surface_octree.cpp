@@ -314,7 +314,21 @@ std::vector<std::uint32_t> SurfaceOctree::with_larger_neighbours(std::vector<std
   return leaves;
 }
 
-void SurfaceOctree::cut(const SurfaceCover& cover, const std::vector<std::uint32_t>& leaves, const RunOptions& run) {
+std::optional<std::uint32_t> SurfaceOctree::find_beside(const OctreeLeaf& leaf, int axis, int from, int to) const {
+  CellPlace place = leaf.place;
+  for (int k = 0; k < 2; ++k) {
+    const int away = (to >> k & 1) - (from >> k & 1), a = (axis + 1 + k) % 3;
+    if (away > 0) place[a] += 1u << leaf.level;
+    if (away < 0) --place[a];   // wraps below zero: not found
+    if (away == 0 && !(from >> k & 1)) place[a] += (1u << leaf.level) - 1;
+  }
+  return find(place);
+}
+
+std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::vector<std::uint32_t> wanted, const RunOptions& run) {
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  std::vector<std::uint32_t> leaves = with_larger_neighbours(std::move(wanted));
   std::vector<Subtree> subtrees(leaves.size());
   tbb::enumerable_thread_specific<Sampler> samplers;
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
@@ -323,7 +337,7 @@ void SurfaceOctree::cut(const SurfaceCover& cover, const std::vector<std::uint32
     subtrees[i].root =
         samplers.local().cut(*this, cover.cube_field(leaf.cell), leaf.cell, leaf.place, leaf.level, 1, false, subtrees[i]);
   });
-  if (run.cancelled()) return;
+  if (run.cancelled()) return {};
   std::size_t nodes_at = nodes_.size(), leaves_at = leaves_.size(), nodes = nodes_at, count = leaves_at;
   for (const Subtree& subtree : subtrees) nodes += subtree.nodes.size(), count += subtree.leaves.size();
   nodes_.resize(nodes);
@@ -332,79 +346,10 @@ void SurfaceOctree::cut(const SurfaceCover& cover, const std::vector<std::uint32
     const CellPlace place = leaves_[leaves[i]].place;
     const Node made = adopt(subtrees[i], nodes_at, leaves_at);
     *slot_of(place) = made;
-    leaves_[leaves[i]].mask = 0;
     nodes_at += subtrees[i].nodes.size();
     leaves_at += subtrees[i].leaves.size();
   }
-}
-
-// Whether the middle of an edge whose ends are of one kind is of the other, as a finer leaf around it knows.
-bool SurfaceOctree::crossed_twice(const OctreeLeaf& leaf, int edge) const {
-  if (leaf.level == 0) return false;
-  const int axis = edge / 4, own = 3 - edge % 4, corner = edge_low_corner(edge);
-  CellPlace middle = leaf.place;
-  for (int a = 0; a < 3; ++a) middle[a] += static_cast<std::uint32_t>(corner >> a & 1) << leaf.level;
-  middle[axis] += 1u << (leaf.level - 1);
-  for (int q = 0; q < 4; ++q) {
-    if (q == own) continue;
-    CellPlace place = middle;   // of the unit cube above the middle in this quadrant
-    int bit = 0;
-    for (int k = 0; k < 2; ++k) {
-      const int a = (axis + 1 + k) % 3;
-      if (q >> k & 1) continue;
-      --place[a];
-      bit |= 1 << a;
-    }
-    const auto finer = find(place);
-    if (!finer || leaves_[*finer].level >= leaf.level) continue;
-    if ((leaves_[*finer].mask >> bit & 1) != (leaf.mask >> corner & 1)) return true;
-  }
-  return false;
-}
-
-// Of the leaves around the crossed edges of new ones, those that must be cut. An edge that a still finer leaf divides is told of
-// from there.
-std::vector<std::uint32_t> SurfaceOctree::unsettled(std::size_t first_leaf) const {
-  std::vector<std::uint32_t> found;
-  for (std::size_t i = first_leaf; i < leaves_.size(); ++i) {
-    const OctreeLeaf& leaf = leaves_[i];
-    if (find(leaf.place) != i) continue;
-    for (int e = 0; e < 12; ++e) {
-      if (!edge_crossed(leaf.mask, e)) {
-        if (crossed_twice(leaf, e)) found.push_back(static_cast<std::uint32_t>(i));
-        continue;
-      }
-      const int axis = e / 4, own = 3 - e % 4;   // the quadrant that the leaf is in
-      std::array<std::optional<std::uint32_t>, 4> around;
-      for (int q = 0; q < 4; ++q) {
-        CellPlace place = leaf.place;
-        for (int k = 0; k < 2; ++k) {
-          const int away = (q >> k & 1) - (own >> k & 1);
-          place[(axis + 1 + k) % 3] += static_cast<std::uint32_t>(away) << leaf.level;
-        }
-        around[q] = q == own ? static_cast<std::uint32_t>(i) : find(place);
-      }
-      for (int q = 0; q < 4; ++q) {
-        if (!around[q] || leaves_[*around[q]].level <= leaf.level) continue;
-        if (must_split(*around[q], axis, q, leaf.level, around[q ^ 1] == around[q] || around[q ^ 2] == around[q])) {
-          found.push_back(*around[q]);
-        }
-      }
-    }
-  }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
-
-bool SurfaceOctree::split(const SurfaceCover& cover, std::vector<std::uint32_t> leaves, const RunOptions& run) {
-  while (!leaves.empty()) {
-    const std::size_t before = leaves_.size();
-    cut(cover, with_larger_neighbours(std::move(leaves)), run);
-    if (run.cancelled()) return false;
-    leaves = unsettled(before);
-  }
-  return true;
+  return leaves;
 }
 
 }  // namespace cambium

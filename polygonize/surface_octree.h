@@ -70,9 +70,11 @@ class SurfaceOctree {
     if (spans || l.level == finest) return false;
     return !edge_crossed(l.mask, 4 * axis + 3 - quadrant);
   }
-  /// Cuts each leaf listed (none on level 0) into eight, and others for as long as must_split asks. A cut leaf's number dies; the
-  /// eight get new ones. False if cancelled. Cost: that of the leaves cut.
-  bool split(const SurfaceCover& cover, std::vector<std::uint32_t> leaves, const RunOptions& run);
+  /// The leaf in quadrant `to` around the low end of the edge of a leaf along `axis` that it sees from quadrant `from`, or none.
+  std::optional<std::uint32_t> find_beside(const OctreeLeaf& leaf, int axis, int from, int to) const;
+  /// Cuts each leaf listed (none on level 0) into eight, with neighbours that are larger. Cut leaves' numbers die; the eight get
+  /// new ones, from leaves().size() on. Returns those that were cut, ascending; empty if cancelled. Cost: that of the leaves cut.
+  std::vector<std::uint32_t> split(const SurfaceCover& cover, std::vector<std::uint32_t> leaves, const RunOptions& run);
 
  private:
   struct Subtree {
@@ -83,9 +85,6 @@ class SurfaceOctree {
   class Sampler;
   std::vector<std::uint32_t> with_larger_neighbours(std::vector<std::uint32_t> leaves) const;
   Node* slot_of(const CellPlace& place);
-  void cut(const SurfaceCover& cover, const std::vector<std::uint32_t>& leaves, const RunOptions& run);
-  bool crossed_twice(const OctreeLeaf& leaf, int edge) const;
-  std::vector<std::uint32_t> unsettled(std::size_t first_leaf) const;
   Node adopt(const Subtree& subtree, std::size_t nodes_at, std::size_t leaves_at);
   Node join(const SurfaceCover& cover, const std::vector<Node>& roots, std::size_t begin, std::size_t end, int level);
 

@@ -36,12 +36,9 @@ Incident incident_of(const MinimalEdge& edge, std::uint32_t id, std::uint32_t le
 
 /// A face that the surface crosses in several lines: the edges that each line runs between.
 struct ManyLines {
-  std::uint32_t leaf = 0, other = 0;                         // on its two sides, the lower number first
+  std::uint32_t leaf = 0, other = 0;                         // on its two sides, the one that told of it first
   std::vector<std::array<std::uint32_t, 2>> lines;
 };
-
-/// By the two leaves: lines that are not what the corners' rule gives.
-using Relinked = std::unordered_map<std::uint64_t, std::vector<std::array<std::uint32_t, 2>>>;
 
 std::uint64_t key_of(std::uint32_t leaf, std::uint32_t other) {
   return std::uint64_t{std::min(leaf, other)} << 32 | std::max(leaf, other);
@@ -51,8 +48,8 @@ class LeafTracer {
  public:
   LeafTracer(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges) : tree_(tree), edges_(edges) {}
 
-  std::vector<ManyLines> faces;   ///< met on the way, each from its lower leaf
-  const Relinked* relinked = nullptr;
+  std::vector<ManyLines> faces;   ///< met on the way
+  const RelinkedFaces* relinked = nullptr;
 
   /// Appends the cycles' edges in order to `order`, and how many each has to `lengths`.
   void trace(std::uint32_t leaf, std::span<const std::uint32_t> edges, std::vector<std::uint32_t>& order,
@@ -122,7 +119,6 @@ class LeafTracer {
       join(from, to);
       face.lines.push_back({incidents_[from].edge, incidents_[to].edge});
     }
-    if (leaf > other) return;   // it is told by the other one too
     face.leaf = leaf, face.other = other;
     faces.push_back(std::move(face));
   }
@@ -197,24 +193,6 @@ void for_each_leaf(const MinimalEdge& edge, Visit&& visit) {
   }
 }
 
-/// The crossed edges around each leaf.
-class Incidence {
- public:
-  Incidence(std::size_t leaves, const std::vector<MinimalEdge>& edges) : first_(leaves + 1, 0) {
-    for (const MinimalEdge& edge : edges) for_each_leaf(edge, [&](std::uint32_t leaf) { ++first_[leaf + 1]; });
-    for (std::size_t i = 0; i < leaves; ++i) first_[i + 1] += first_[i];
-    edges_.resize(first_.back());
-    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      for_each_leaf(edges[e], [&](std::uint32_t leaf) { edges_[at[leaf]++] = e; });
-    }
-  }
-  std::span<const std::uint32_t> of(std::size_t leaf) const { return {edges_.data() + first_[leaf], first_[leaf + 1] - first_[leaf]}; }
-
- private:
-  std::vector<std::uint32_t> first_, edges_;
-};
-
 struct Cycles {
   std::vector<std::uint32_t> order, lengths;
   std::size_t cycle_of(std::uint32_t edge) const {
@@ -224,22 +202,25 @@ struct Cycles {
   }
 };
 
-struct Traced {
-  std::vector<std::uint32_t> leaves, counts;   // each leaf, and how many cycles it has
-  Cycles cycles;
-  std::vector<ManyLines> faces;
-};
-
 constexpr std::size_t kLeavesPerTask = 2048;
 
+std::size_t place_of(const LeafEdges& around, std::uint32_t leaf) {
+  return static_cast<std::size_t>(std::lower_bound(around.leaves.begin(), around.leaves.end(), leaf) - around.leaves.begin());
+}
+
+bool lists(const LeafEdges& around, std::uint32_t leaf) {
+  const std::size_t place = place_of(around, leaf);
+  return place < around.leaves.size() && around.leaves[place] == leaf;
+}
+
 /// Links the lines of a face so that no two of them join the same cycles on both sides. True if any had to change.
-bool settle(ManyLines& face, const Incidence& incidence, LeafTracer& tracer, Relinked& relinked) {
+bool settle(ManyLines& face, const LeafEdges& around, LeafTracer& tracer, RelinkedFaces& relinked) {
   bool changed = false;
   for (bool again = true; again;) {
     again = false;
     Cycles here, there;
-    tracer.trace(face.leaf, incidence.of(face.leaf), here.order, here.lengths);
-    tracer.trace(face.other, incidence.of(face.other), there.order, there.lengths);
+    tracer.trace(face.leaf, around.of(place_of(around, face.leaf)), here.order, here.lengths);
+    tracer.trace(face.other, around.of(place_of(around, face.other)), there.order, there.lengths);
     for (std::size_t i = 0; i < face.lines.size() && !again; ++i) {
       for (std::size_t j = i + 1; j < face.lines.size() && !again; ++j) {
         auto &a = face.lines[i], &b = face.lines[j];
@@ -253,69 +234,91 @@ bool settle(ManyLines& face, const Incidence& incidence, LeafTracer& tracer, Rel
   return changed;
 }
 
+struct Traced {
+  std::vector<std::uint32_t> counts;   // of cycles of each leaf
+  Cycles cycles;
+  std::vector<ManyLines> faces;
+};
+
 }  // namespace
 
-std::optional<SurfacePatches> find_patches(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const RunOptions& run) {
-  SurfacePatches result;
-  const std::size_t leaf_count = tree.leaves().size();
-  const Incidence incidence(leaf_count, edges);
-  if (run.cancelled()) return std::nullopt;
-  std::vector<Traced> traced((leaf_count + kLeavesPerTask - 1) / kLeavesPerTask);
+LeafEdges edges_around_leaves(std::size_t leaf_count, const std::vector<MinimalEdge>& edges) {
+  LeafEdges result;
+  std::vector<std::uint32_t> at(leaf_count + 1, 0);
+  for (const MinimalEdge& edge : edges) for_each_leaf(edge, [&](std::uint32_t leaf) { ++at[leaf + 1]; });
+  for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
+    if (at[leaf + 1] > 0) {
+      result.leaves.push_back(leaf);
+      result.first.push_back(result.first.back() + at[leaf + 1]);
+    }
+    at[leaf + 1] += at[leaf];
+  }
+  result.edges.resize(result.first.back());
+  for (std::uint32_t e = 0; e < edges.size(); ++e) for_each_leaf(edges[e], [&](std::uint32_t leaf) { result.edges[at[leaf]++] = e; });
+  return result;
+}
+
+LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const LeafEdges& around,
+                        RelinkedFaces& relinked) {
+  std::vector<Traced> traced((around.leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask);
   tbb::parallel_for(std::size_t{0}, traced.size(), [&](std::size_t task) {
-    if (run.cancelled()) return;
     Traced& out = traced[task];
     LeafTracer tracer(tree, edges);
-    for (std::size_t leaf = task * kLeavesPerTask; leaf < std::min(leaf_count, (task + 1) * kLeavesPerTask); ++leaf) {
-      if (incidence.of(leaf).empty()) continue;
+    for (std::size_t i = task * kLeavesPerTask; i < std::min(around.leaves.size(), (task + 1) * kLeavesPerTask); ++i) {
       const std::size_t before = out.cycles.lengths.size();
-      tracer.trace(static_cast<std::uint32_t>(leaf), incidence.of(leaf), out.cycles.order, out.cycles.lengths);
-      out.leaves.push_back(static_cast<std::uint32_t>(leaf));
+      tracer.trace(around.leaves[i], around.of(i), out.cycles.order, out.cycles.lengths);
       out.counts.push_back(static_cast<std::uint32_t>(out.cycles.lengths.size() - before));
     }
     out.faces = std::move(tracer.faces);
   });
-  if (run.cancelled()) return std::nullopt;
 
-  Relinked relinked;
+  LeafCycles result;
   LeafTracer tracer(tree, edges);
   tracer.relinked = &relinked;
   std::unordered_map<std::uint32_t, Cycles> again;
-  for (Traced& part : traced) {
-    for (ManyLines& face : part.faces) {
-      if (!settle(face, incidence, tracer, relinked)) continue;
-      ++result.relinked_faces;
-      again[face.leaf], again[face.other];
+  for (const Traced& part : traced) {
+    for (const ManyLines& face : part.faces) {
+      relinked.erase(key_of(face.leaf, face.other));
+      if (!lists(around, face.other)) result.missing.push_back(face.other);
     }
   }
-  for (auto& [leaf, cycles] : again) tracer.trace(leaf, incidence.of(leaf), cycles.order, cycles.lengths);
-
-  result.patch_of_quadrant.assign(edges.size(), {kNoPatch, kNoPatch, kNoPatch, kNoPatch});
-  const auto take = [&](std::uint32_t leaf, const std::uint32_t* order, const std::uint32_t* lengths, std::size_t count) {
-    if (count > 1) result.crowded.push_back(leaf);
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto patch = static_cast<std::uint32_t>(result.patches.size());
-      if (lengths[k] < 3 && (result.to_split.empty() || result.to_split.back() != leaf)) result.to_split.push_back(leaf);
-      result.patches.push_back({leaf, static_cast<std::uint32_t>(result.edges.size()), lengths[k]});
-      for (std::uint32_t j = 0; j < lengths[k]; ++j, ++order) {
-        result.edges.push_back(*order);
-        for (int q = 0; q < 4; ++q) {
-          if (edges[*order].leaves[q] == leaf) result.patch_of_quadrant[*order][q] = patch;
-        }
-      }
-    }
-  };
+  if (!result.missing.empty()) {
+    std::sort(result.missing.begin(), result.missing.end());
+    result.missing.erase(std::unique(result.missing.begin(), result.missing.end()), result.missing.end());
+    return result;
+  }
   for (Traced& part : traced) {
-    const std::uint32_t *order = part.cycles.order.data(), *lengths = part.cycles.lengths.data();
-    for (std::size_t i = 0; i < part.leaves.size(); ++i) {
-      const std::uint32_t count = part.counts[i];
-      if (const auto other = again.empty() ? again.end() : again.find(part.leaves[i]); other != again.end()) {
-        take(part.leaves[i], other->second.order.data(), other->second.lengths.data(), other->second.lengths.size());
-      } else {
-        take(part.leaves[i], order, lengths, count);
-      }
-      for (std::uint32_t k = 0; k < count; ++k) order += *lengths++;
+    for (ManyLines& face : part.faces) {
+      if (face.leaf < face.other && settle(face, around, tracer, relinked)) again[face.leaf], again[face.other];
     }
-    part = {};
+  }
+  for (auto& [leaf, cycles] : again) tracer.trace(leaf, around.of(place_of(around, leaf)), cycles.order, cycles.lengths);
+
+  result.counts.reserve(around.leaves.size());
+  result.edges.reserve(around.edges.size());
+  std::size_t leaf = 0;
+  for (const Traced& part : traced) {
+    const std::uint32_t *order = part.cycles.order.data(), *lengths = part.cycles.lengths.data();
+    for (const std::uint32_t count : part.counts) {
+      const std::uint32_t* const order_begin = order;
+      const std::uint32_t* const lengths_begin = lengths;
+      for (std::uint32_t k = 0; k < count; ++k) order += *lengths++;
+      const auto other = again.empty() ? again.end() : again.find(around.leaves[leaf]);
+      if (other == again.end()) {
+        result.counts.push_back(count);
+        result.edges.insert(result.edges.end(), order_begin, order);
+        result.lengths.insert(result.lengths.end(), lengths_begin, lengths);
+      } else {
+        result.counts.push_back(static_cast<std::uint32_t>(other->second.lengths.size()));
+        result.edges.insert(result.edges.end(), other->second.order.begin(), other->second.order.end());
+        result.lengths.insert(result.lengths.end(), other->second.lengths.begin(), other->second.lengths.end());
+      }
+      const auto end = result.lengths.end();
+      if (std::any_of(end - result.counts.back(), end, [](std::uint32_t length) { return length < 3; })) {
+        result.to_split.push_back(around.leaves[leaf]);
+      }
+      ++leaf;
+    }
   }
   return result;
 }

@@ -6,35 +6,43 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace cambium {
 
 inline constexpr std::uint32_t kNoPatch = 0xffffffffu;
 
-/// One cycle on the boundary of one leaf.
-struct Patch {
-  std::uint32_t leaf = 0;
-  std::uint32_t first_edge = 0, edge_count = 0;   ///< in SurfacePatches::edges
+/// Leaves, ascending, and the crossed minimal edges around each.
+struct LeafEdges {
+  std::vector<std::uint32_t> leaves;
+  std::vector<std::uint32_t> first{0};      ///< one more than leaves
+  std::vector<std::uint32_t> edges;
+
+  std::span<const std::uint32_t> of(std::size_t i) const { return {edges.data() + first[i], first[i + 1] - first[i]}; }
 };
 
-struct SurfacePatches {
-  std::vector<Patch> patches;                                   ///< by leaf
-  std::vector<std::uint32_t> edges;                             ///< minimal edges of the patches, each cycle in order
-  std::vector<std::array<std::uint32_t, 4>> patch_of_quadrant;  ///< by minimal edge and quadrant
-  std::vector<std::uint32_t> to_split;                          ///< leaves with a cycle of two edges only, ascending
-  std::size_t relinked_faces = 0;                               ///< so that no two patches are joined twice
-  std::vector<std::uint32_t> crowded;                           ///< leaves of several patches, ascending
+/// Of all leaves that have any. Cost: linear.
+LeafEdges edges_around_leaves(std::size_t leaf_count, const std::vector<MinimalEdge>& edges);
 
-  std::span<const std::uint32_t> edges_of(const Patch& patch) const { return {edges.data() + patch.first_edge, patch.edge_count}; }
+/// By two leaves that a face lies between: the lines in which the surface crosses it (pairs of edges), where they are not those
+/// that the corners' rule gives.
+using RelinkedFaces = std::unordered_map<std::uint64_t, std::vector<std::array<std::uint32_t, 2>>>;
+
+struct LeafCycles {
+  std::vector<std::uint32_t> counts;        ///< of cycles, by place in LeafEdges::leaves
+  std::vector<std::uint32_t> lengths;       ///< of cycles
+  std::vector<std::uint32_t> edges;         ///< of the cycles, each in order
+  std::vector<std::uint32_t> to_split;      ///< leaves with a cycle of two edges only, ascending
+  std::vector<std::uint32_t> missing;       ///< leaves that share a face of several lines with one listed, but are not, ascending
 };
 
-/// Where to_split is empty, every edge of the mesh dual to the patches lies in two polygons and every vertex in one fan, whatever
-/// the signs are. A face that the surface crosses in several lines keeps its inside corners apart; where two of its lines would
-/// then join the same two patches, they are linked the other way, which parts both patches, and so never joins others twice.
-/// nullopt if cancelled. Cost: linear in the edges.
-std::optional<SurfacePatches> find_patches(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const RunOptions& run);
+/// The cycles of the leaves listed. A face that the surface crosses in several lines keeps its inside corners apart; where two of
+/// its lines would then join the same two cycles, they are linked the other way, which parts both cycles, and so never joins
+/// others twice. Every edge of the mesh dual to the cycles is then in two polygons and every vertex in one fan, whatever the
+/// signs are, unless to_split or missing tell of leaves. Cost: linear in the edges.
+LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const LeafEdges& around,
+                        RelinkedFaces& relinked);
 
 }  // namespace cambium

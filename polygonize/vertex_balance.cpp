@@ -1,0 +1,101 @@
+#include "polygonize/vertex_balance.h"
+
+#include "polygonize/patch_vertices.h"
+#include "polygonize/polygon_ring.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cambium {
+namespace {
+
+constexpr std::size_t kGrain = 4096;
+
+/// How far outside of a polygon's mean plane the surface is where it crosses the polygon's edge, metres. Of a polygon that is folded
+/// flat, the distance to the nearest corner.
+double height_over(const Ring& ring, const std::vector<Vec3>& positions, const Vec3& x) {
+  std::array<Vec3, 4> p;
+  Vec3 mean(0.0);
+  double nearest = kInfinity;
+  for (int k = 0; k < ring.count; ++k) {
+    p[k] = positions[ring.patches[k]] - x;
+    mean += p[k];
+    nearest = std::min(nearest, glm::length(p[k]));
+  }
+  mean /= static_cast<double>(ring.count);
+  const Vec3 area = ring.count == 3 ? glm::cross(p[1] - p[0], p[2] - p[0]) : glm::cross(p[2] - p[0], p[3] - p[1]);
+  const double length = glm::length(area);
+  const double height = length > 0 ? -glm::dot(mean, area) / length : kInfinity;
+  return std::abs(height) < nearest ? height : std::copysign(nearest, height);
+}
+
+class Marks {
+ public:
+  explicit Marks(std::size_t n) : marked_(n, 0) {}
+  void mark(std::uint32_t i) { marked_[i] = 1; }
+  std::vector<std::uint32_t> ascending() const {
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t i = 0; i < marked_.size(); ++i)
+      if (marked_[i]) list.push_back(i);
+    return list;
+  }
+
+ private:
+  std::vector<std::uint8_t> marked_;
+};
+
+std::vector<std::uint32_t> edges_of(const Contour& contour, const std::vector<std::uint32_t>& patches) {
+  Marks marks(contour.edges.size());
+  for (const std::uint32_t p : patches)
+    for (const std::uint32_t e : contour.ring(p)) marks.mark(e);
+  return marks.ascending();
+}
+
+std::vector<std::uint32_t> patches_around(const Contour& contour, const std::vector<std::uint32_t>& edges) {
+  Marks marks(contour.patches.size());
+  for (const std::uint32_t e : edges)
+    for (const std::uint32_t p : contour.patch_of_quadrant[e]) marks.mark(p);
+  return marks.ascending();
+}
+
+template <class Body>
+void for_each(const std::vector<std::uint32_t>& list, Body&& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, list.size(), kGrain), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) body(list[i]);
+  });
+}
+
+}  // namespace
+
+void VertexBalance::update(const SurfaceOctree& tree, const Contour& contour, const std::vector<std::uint32_t>& new_patches) {
+  on_surface_.resize(contour.patches.size());
+  positions_.resize(contour.patches.size());
+  heights_.resize(contour.edges.size());
+  errors_.resize(contour.edges.size());
+  for (const std::uint32_t p : new_patches) on_surface_[p] = contour.vertices[p].position;
+  const auto height = [&](std::uint32_t e, const std::vector<Vec3>& positions) {
+    return static_cast<float>(
+        height_over(ring_of(contour.edges[e], contour.patch_of_quadrant[e]), positions, crossing_point(tree, contour, e)));
+  };
+  const std::vector<std::uint32_t> edges = edges_of(contour, new_patches);
+  for_each(edges, [&](std::uint32_t e) { heights_[e] = height(e, on_surface_); });
+  const std::vector<std::uint32_t> patches = patches_around(contour, edges);
+  for_each(patches, [&](std::uint32_t p) {
+    positions_[p] = on_surface_[p];
+    if (contour.vertices[p].crease) return;
+    double sum = 0;
+    for (const std::uint32_t e : contour.ring(p)) sum += static_cast<double>(heights_[e]);
+    const double outwards = std::clamp(0.5 * sum / contour.patches[p].edge_count, -0.5 * tolerance_, 0.5 * tolerance_);
+    const OctreeLeaf& leaf = tree.leaves()[contour.patches[p].leaf];
+    const Box box = tree.box(leaf);
+    const double margin = kVertexMargin * tree.edge(leaf);
+    positions_[p] = glm::clamp(on_surface_[p] + outwards * Vec3(contour.vertices[p].normal), box.lo + margin, box.hi - margin);
+  });
+  changed_edges_ = edges_of(contour, patches);
+  for_each(changed_edges_, [&](std::uint32_t e) { errors_[e] = std::abs(height(e, positions_)); });
+}
+
+}  // namespace cambium
