@@ -213,13 +213,20 @@ std::vector<LeafEdge> ContourRefiner::around_of(const std::vector<std::uint32_t>
 // Puts the cycles of the leaves in place of their old patches. Returns leaves that must be cut.
 std::vector<std::uint32_t> ContourRefiner::trace(std::vector<LeafEdge> pairs) {
   LeafEdges around = grouped(pairs);
-  LeafCycles cycles = trace_cycles(tree_, contour_.edges, around, relinked_);
-  while (!cycles.missing.empty()) {
-    const std::vector<LeafEdge> more = around_of(cycles.missing);
-    pairs.insert(pairs.end(), more.begin(), more.end());
+  std::vector<std::uint32_t> across = leaves_across_many_lines(tree_, contour_.edges, around);
+  if (!across.empty()) {
+    std::vector<bool> listed(tree_.leaves().size(), false);
+    for (const std::uint32_t leaf : around.leaves) listed[leaf] = true;
+    while (!across.empty()) {
+      for (const std::uint32_t leaf : across) listed[leaf] = true;
+      std::vector<LeafEdge> more = around_of(across);
+      pairs.insert(pairs.end(), more.begin(), more.end());
+      across = leaves_across_many_lines(tree_, contour_.edges, grouped(more));
+      std::erase_if(across, [&](std::uint32_t leaf) { return listed[leaf]; });
+    }
     around = grouped(pairs);
-    cycles = trace_cycles(tree_, contour_.edges, around, relinked_);
   }
+  LeafCycles cycles = trace_cycles(tree_, contour_.edges, around, relinked_);
   replace_patches(around, cycles);
   return std::move(cycles.to_split);
 }

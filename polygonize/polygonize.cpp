@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t kMostRounds = 12;
 constexpr std::size_t kMostCells = 400'000'000;
+constexpr double kWhole = 1.1;        // in radii: of larger cells the corners may miss a twig, or meet only across a diagonal
 constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge
 // Cells of sqrt(kSagitta tolerance radius) are about as large as keeps their polygons within the tolerance: the rest is refined.
 // From 5 to 16 the poplar takes 5.0 to 3.6 million triangles at 0.5 mm, but as many more rounds.
@@ -49,10 +50,10 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
   plan.tolerance = options.tolerance.value_or(std::max(across / 20000, std::isfinite(thinnest) ? thinnest / 8 : across / 1000));
   double sides = options.min_sides;
   if (options.preview) plan.tolerance *= 16, sides = std::min(sides, 4.0);
-  plan.leaves.radii = kCellsAround / sides;
+  plan.leaves.radii = std::min(kCellsAround / sides, kWhole);
   plan.leaves.sagitta = kSagitta * plan.tolerance;
   plan.leaves.longest = across / 16;
-  plan.leaves.shortest_gap = 2 * plan.tolerance;
+  plan.leaves.shortest_gap = plan.tolerance;
   // Leaves halve from one that is just right for the thinnest twig, of which there is most, down to a quarter of the tolerance.
   double unit = std::isfinite(thinnest) ? plan.leaves.edge(thinnest) : plan.leaves.longest;
   const double finest = std::max(plan.tolerance / 4, std::max({size.x, size.y, size.z}) * std::ldexp(1.0, -kFinestHalvings));
@@ -162,7 +163,7 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   report_cells(*made, report);
   report.face_vertices = built->face_vertices;
   report.edge_vertices = built->edge_vertices;
-  const auto components = close_thin_voids(result.mesh, plan.leaves.shortest_gap, run);
+  const auto components = close_thin_voids(result.mesh, 2 * std::max(made->tree.narrow(), report.smallest_cell / 2), run);
   if (!components) return std::nullopt;
   report.components = components->components;
   report.closed_voids = components->closed_voids;

@@ -1,5 +1,8 @@
 #include "polygonize/surface_octree.h"
 
+#include "blobtree/choices.h"
+#include "polygonize/field_batch.h"
+
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -26,6 +29,11 @@ double LeafRule::edge(double radius) const {
   return std::min({longest, radii * radius, std::sqrt(sagitta * radius)});
 }
 
+double SurfaceOctree::narrow() const {
+  if (!(rule_.shortest_gap > 0) || !std::isfinite(rule_.shortest_gap)) return 0;
+  return std::ldexp(grid_.cell, std::max(0, std::ilogb(2 * rule_.shortest_gap / grid_.cell)));
+}
+
 /// Samples the corners of a cube cut into equal parts: which are inside, and which parts have an edge between two corners of the
 /// same kind on which the field nevertheless seems to cross the surface twice. Scratch of one thread.
 class SurfaceOctree::Sampler {
@@ -39,7 +47,7 @@ class SurfaceOctree::Sampler {
     std::vector<std::pair<std::uint32_t, int>> suspects;   // leaf, its level
     const Node root = descend(cell, place, level, {0, 0, 0}, cuts, subtree, suspects);
     for (const auto& [leaf, leaf_level] : suspects) {
-      if (leaf_level == 0 || std::ldexp(tree.grid_.cell, leaf_level) < 2 * tree.rule_.shortest_gap) continue;
+      if (leaf_level == 0 || std::ldexp(tree.grid_.cell, leaf_level) <= tree.narrow()) continue;
       const OctreeLeaf old = subtree.leaves[leaf];
       again_.push_back({leaf, old});
     }
@@ -99,7 +107,52 @@ class SurfaceOctree::Sampler {
           }
           inside_[i] = f_[i] >= 0;
         }
+    fill_cracks(tree, field, place, level);
     find_suspects(field, static_cast<float>(step));
+  }
+
+  // An outside corner between sheets that are closer than narrow() along an axis becomes an inside one. Every cell that has the
+  // corner asks the same field, that of the cover's cell it is in, also a little beyond it.
+  void fill_cracks(const SurfaceOctree& tree, const PrunedField& field, const CellPlace& place, int level) {
+    const double width = tree.narrow();
+    if (!(width > 0) || ChoiceEvaluator::smooth(field)) return;
+    // No field of these radii falls by more over that way, but for scars.
+    const float reach = std::min(0.5f, static_cast<float>(2 * width / field.smallest_radius()));
+    for (int z = 0, i = 0; z < side_; ++z)
+      for (int y = 0; y < side_; ++y)
+        for (int x = 0; x < side_; ++x, ++i) {
+          if (inside_[i] || f_[i] < -reach) continue;
+          const bool within = x > 0 && y > 0 && z > 0 && x < parts_ && y < parts_ && z < parts_;
+          const Vec3 p = tree.point(offset(place, x, y, z, level));
+          PrunedField home = field;
+          if (!within) {
+            const auto cell = tree.cover_->find(p);
+            if (!cell) continue;
+            home = tree.cover_->cube_field(*cell);
+          }
+          if (!in_crack(home, p, width)) continue;
+          inside_[i] = 1;
+          f_[i] = 0;
+        }
+  }
+
+  bool in_crack(const PrunedField& field, const Vec3& p, double width) {
+    crack_.clear();
+    for (int a = 0; a < 3; ++a)
+      for (int k = 1; k < kCrackSteps; ++k)
+        for (const int side : {-1, 1}) {
+          Vec3 q = p;
+          q[a] += side * width * k / kCrackSteps;
+          crack_.add(field, q);
+        }
+    crack_.evaluate_values(evaluator_, field);
+    const auto inside = [&](int a, int k, int side) {
+      return crack_.value(static_cast<std::size_t>(2 * ((kCrackSteps - 1) * a + k - 1) + side)) >= 0;
+    };
+    for (int a = 0; a < 3; ++a)
+      for (int k = 1; k < kCrackSteps; ++k)
+        if (inside(a, k, 0) && inside(a, kCrackSteps - k, 1)) return true;
+    return false;
   }
 
   // Where the tangents at both ends of an edge cross on the far side of the surface, the field is asked there.
@@ -192,7 +245,9 @@ class SurfaceOctree::Sampler {
     float t;
     bool inside;
   };
+  static constexpr int kCrackSteps = 8;
   Evaluator evaluator_;
+  FieldBatch crack_;
   bool merge_ = true;
   int parts_ = 0, side_ = 0;
   std::vector<float> x_, y_, z_, f_, gx_, gy_, gz_, px_, py_, pz_, pf_;
@@ -242,6 +297,7 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
   tree.grid_.levels += finer;
   tree.finer_ = finer;
   tree.rule_ = rule;
+  tree.cover_ = &cover;
   std::vector<Subtree> subtrees(cover.size());
   tbb::enumerable_thread_specific<Sampler> samplers;
   tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
@@ -270,6 +326,7 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
     subtrees[i] = {};
   });
   tree.root_ = tree.join(cover, roots, 0, cover.size(), tree.grid_.levels);
+  tree.cover_ = nullptr;
   return tree;
 }
 
@@ -329,6 +386,7 @@ std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   std::vector<std::uint32_t> leaves = with_larger_neighbours(std::move(wanted));
+  cover_ = &cover;
   std::vector<Subtree> subtrees(leaves.size());
   tbb::enumerable_thread_specific<Sampler> samplers;
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
@@ -337,6 +395,7 @@ std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::
     subtrees[i].root =
         samplers.local().cut(*this, cover.cube_field(leaf.cell), leaf.cell, leaf.place, leaf.level, 1, false, subtrees[i]);
   });
+  cover_ = nullptr;
   if (run.cancelled()) return {};
   std::size_t nodes_at = nodes_.size(), leaves_at = leaves_.size(), nodes = nodes_at, count = leaves_at;
   for (const Subtree& subtree : subtrees) nodes += subtree.nodes.size(), count += subtree.leaves.size();

@@ -27,7 +27,7 @@ struct LeafRule {
   double radii = 1;                  ///< in smallest active surface radii
   double sagitta = kInfinity;        ///< and at most sqrt(sagitta * radius)
   double longest = kInfinity;
-  double shortest_gap = 0;           ///< leaves are not cut below this to show that two sheets are apart
+  double shortest_gap = 0;           ///< leaves are not cut below this to show that two sheets are apart; see SurfaceOctree::narrow()
 
   double edge(double radius) const;
 };
@@ -55,6 +55,9 @@ class SurfaceOctree {
   const std::vector<OctreeLeaf>& leaves() const { return leaves_; }
   const CellGrid& grid() const { return grid_; }
 
+  /// Where sheets with a crease between them are closer than this along an axis, what is between them counts as inside: it is the
+  /// edge of the smallest leaves that show gaps, so every wider gap has a corner in it and cracks end in a clean floor.
+  double narrow() const;
   double edge(const OctreeLeaf& leaf) const { return grid_.cell * static_cast<double>(std::uint64_t{1} << leaf.level); }
   Vec3 point(const CellPlace& place) const { return grid_.box(place, 0).lo; }
   Box box(const OctreeLeaf& leaf) const { return grid_.box(leaf.place, leaf.level); }
@@ -88,6 +91,7 @@ class SurfaceOctree {
   Node adopt(const Subtree& subtree, std::size_t nodes_at, std::size_t leaves_at);
   Node join(const SurfaceCover& cover, const std::vector<Node>& roots, std::size_t begin, std::size_t end, int level);
 
+  const SurfaceCover* cover_ = nullptr;   // while it is being sampled
   CellGrid grid_;
   int finer_ = 0;
   LeafRule rule_;

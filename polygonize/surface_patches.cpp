@@ -258,6 +258,22 @@ LeafEdges edges_around_leaves(std::size_t leaf_count, const std::vector<MinimalE
   return result;
 }
 
+std::vector<std::uint32_t> leaves_across_many_lines(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges,
+                                                    const LeafEdges& around) {
+  std::vector<std::uint32_t> found;
+  LeafTracer tracer(tree, edges);
+  for (std::size_t i = 0; i < around.leaves.size(); ++i) {
+    if (around.of(i).size() < 4) continue;   // two lines across one face have four ends
+    Cycles cycles;
+    tracer.trace(around.leaves[i], around.of(i), cycles.order, cycles.lengths);
+  }
+  for (const ManyLines& face : tracer.faces)
+    if (!lists(around, face.other)) found.push_back(face.other);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const LeafEdges& around,
                         RelinkedFaces& relinked) {
   std::vector<Traced> traced((around.leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask);
@@ -276,17 +292,8 @@ LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge
   LeafTracer tracer(tree, edges);
   tracer.relinked = &relinked;
   std::unordered_map<std::uint32_t, Cycles> again;
-  for (const Traced& part : traced) {
-    for (const ManyLines& face : part.faces) {
-      relinked.erase(key_of(face.leaf, face.other));
-      if (!lists(around, face.other)) result.missing.push_back(face.other);
-    }
-  }
-  if (!result.missing.empty()) {
-    std::sort(result.missing.begin(), result.missing.end());
-    result.missing.erase(std::unique(result.missing.begin(), result.missing.end()), result.missing.end());
-    return result;
-  }
+  for (const Traced& part : traced)
+    for (const ManyLines& face : part.faces) relinked.erase(key_of(face.leaf, face.other));
   for (Traced& part : traced) {
     for (ManyLines& face : part.faces) {
       if (face.leaf < face.other && settle(face, around, tracer, relinked)) again[face.leaf], again[face.other];

@@ -35,13 +35,17 @@ struct LeafCycles {
   std::vector<std::uint32_t> lengths;       ///< of cycles
   std::vector<std::uint32_t> edges;         ///< of the cycles, each in order
   std::vector<std::uint32_t> to_split;      ///< leaves with a cycle of two edges only, ascending
-  std::vector<std::uint32_t> missing;       ///< leaves that share a face of several lines with one listed, but are not, ascending
 };
 
-/// The cycles of the leaves listed. A face that the surface crosses in several lines keeps its inside corners apart; where two of
+/// Leaves, ascending, that share a face which the surface crosses in several lines with one that is listed, but are not: whoever
+/// traces the one must trace the other. Cost: linear in the edges.
+std::vector<std::uint32_t> leaves_across_many_lines(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges,
+                                                    const LeafEdges& around);
+
+/// The cycles of the leaves listed, which have none across many lines. A face that the surface crosses in several lines keeps its inside corners apart; where two of
 /// its lines would then join the same two cycles, they are linked the other way, which parts both cycles, and so never joins
 /// others twice. Every edge of the mesh dual to the cycles is then in two polygons and every vertex in one fan, whatever the
-/// signs are, unless to_split or missing tell of leaves. Cost: linear in the edges.
+/// signs are, unless to_split tells of leaves. Cost: linear in the edges.
 LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const LeafEdges& around,
                         RelinkedFaces& relinked);
 
