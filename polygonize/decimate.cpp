@@ -9,30 +9,37 @@
 namespace cambium {
 namespace {
 
-constexpr int kMostRounds = 8;   // of mending; two or three are usual
+constexpr int kMostRings = 4;
+constexpr int kMostRounds = 20;   // of mending; two or three are usual
 
 using Pairs = std::vector<std::array<std::uint32_t, 2>>;
 
-// Locks every vertex of the source that went into a triangle of a pair, and from the third round on into their neighbours too.
-// False if all of them were locked before.
+void widen(const Mesh& mesh, std::vector<bool>& marked) {
+  std::vector<bool> wider = marked;
+  for (const auto& t : mesh.triangles)
+    if (marked[t[0]] || marked[t[1]] || marked[t[2]])
+      for (const std::uint32_t v : t) wider[v] = true;
+  marked = std::move(wider);
+}
+
+// Locks every vertex of the source that went into a triangle of a pair, from the third round on into their neighbours too, and
+// where all of these are locked already into ever more of them. False if nothing is left to lock nearby.
 bool lock_pairs(const Collapsed& made, const Pairs& pairs, int round, std::vector<bool>& locked) {
   std::vector<bool> marked(made.mesh.positions.size(), false);
   for (const auto& pair : pairs)
     for (const std::uint32_t triangle : pair)
       for (const std::uint32_t v : made.mesh.triangles[triangle]) marked[v] = true;
-  if (round >= 2) {
-    std::vector<bool> wider = marked;
-    for (const auto& t : made.mesh.triangles)
-      if (marked[t[0]] || marked[t[1]] || marked[t[2]])
-        for (const std::uint32_t v : t) wider[v] = true;
-    marked = std::move(wider);
+  if (round >= 2) widen(made.mesh, marked);
+  for (int ring = 0; ring < kMostRings; ++ring) {
+    bool more = false;
+    for (std::size_t v = 0; v < locked.size(); ++v) {
+      if (locked[v] || made.survivor[v] >= marked.size() || !marked[made.survivor[v]]) continue;
+      locked[v] = more = true;
+    }
+    if (more) return true;
+    widen(made.mesh, marked);
   }
-  bool more = false;
-  for (std::size_t v = 0; v < locked.size(); ++v) {
-    if (locked[v] || made.survivor[v] >= marked.size() || !marked[made.survivor[v]]) continue;
-    locked[v] = more = true;
-  }
-  return more;
+  return false;
 }
 
 }  // namespace

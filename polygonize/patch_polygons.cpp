@@ -1,6 +1,7 @@
 #include "polygonize/patch_polygons.h"
 
 #include "polygonize/crease_point.h"
+#include "polygonize/crowded_leaves.h"
 #include "polygonize/groups.h"
 #include "polygonize/polygon_ring.h"
 
@@ -121,7 +122,17 @@ struct FaceVertex {
 class PolygonBuilder {
  public:
   PolygonBuilder(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<Vec3>& positions)
-      : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings), positions_(positions), creases_(crease_edges(contour)) {}
+      : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings), positions_(positions), creases_(crease_edges(contour)), crowded_(crowded_patches(contour)) {
+    // Of a leaf with several patches each keeps to the hull of its own crossings, so that those of parallel sheets are apart.
+    for (std::uint32_t p = 0; p < positions_.size(); ++p) {
+      if (!crowded_[p]) continue;
+      const Vec3 low = tree.box(tree.leaves()[contour.patches[p].leaf]).lo;
+      Vec3 sum(0.0);
+      for (const std::uint32_t e : contour.ring(p)) sum += crossing_point(e) - low;
+      positions_[p] = low + sum / static_cast<double>(contour.patches[p].edge_count);
+    }
+    std::erase_if(creases_, [&](const auto& crease) { return crowded_[crease[0]] || crowded_[crease[1]]; });
+  }
 
   std::optional<DualMesh> build(const RunOptions& run) {
     find_faces();
@@ -154,7 +165,7 @@ class PolygonBuilder {
         for (int k = 0; k < ring.count; ++k) {
           const std::uint32_t p = ring.patches[k], r = ring.patches[(k + 1) % ring.count];
           const auto [q, next] = ring.across[k];
-          if (see_each_other(face_between(tree_, edge, frame, q, next), position(p), position(r))) continue;
+          if (!crowded_[p] && !crowded_[r] && see_each_other(face_between(tree_, edge, frame, q, next), position(p), position(r))) continue;
           FaceVertex face;
           face.patches = {std::min(p, r), std::max(p, r)};
           face.edge = static_cast<std::uint32_t>(i);
@@ -221,6 +232,7 @@ class PolygonBuilder {
         return;
       }
     }
+    if (crowded_[vertex.patches[0]] || crowded_[vertex.patches[1]]) return;
     for (int round = 0; round < 3; ++round) {
       Sample sample = evaluator.sample(field, vertex.position);
       sample.gradient[face.axis] = 0;
@@ -356,8 +368,9 @@ class PolygonBuilder {
   const Contour& contour_;
   const std::vector<MinimalEdge>& edges_;
   const std::vector<Crossing>& crossings_;
-  const std::vector<Vec3>& positions_;
-  const std::vector<std::array<std::uint32_t, 2>> creases_;
+  std::vector<Vec3> positions_;
+  std::vector<std::array<std::uint32_t, 2>> creases_;
+  const std::vector<bool> crowded_;
   std::vector<FaceVertex> faces_;
   std::vector<Plan> plans_;
 };

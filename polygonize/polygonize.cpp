@@ -2,6 +2,7 @@
 
 #include "blobtree/input_error.h"
 #include "blobtree/progress_meter.h"
+#include "polygonize/crowded_leaves.h"
 #include "polygonize/lattice.h"
 #include "polygonize/mesh_components.h"
 #include "polygonize/patch_polygons.h"
@@ -42,7 +43,6 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
     plan.tolerance = kInfinity;
     plan.finer = 3;
     plan.leaves.radii = 0;
-    plan.leaves.shortest_gap = *options.voxel;
     plan.cover.cell = *options.voxel * 8;
     return plan;
   }
@@ -129,14 +129,7 @@ void report_cells(const Contoured& made, PolygonizeReport& report) {
     report.smallest_cell = std::ldexp(made.tree.grid().cell, finest);
     report.largest_cell = std::ldexp(made.tree.grid().cell, coarsest);
   }
-  std::vector<std::uint32_t> crowded;
-  for (const Patch& patch : patches) crowded.push_back(patch.leaf);
-  std::sort(crowded.begin(), crowded.end());
-  for (std::size_t i = 1; i < crowded.size(); ++i) {
-    if (crowded[i] == crowded[i - 1] && (i < 2 || crowded[i] != crowded[i - 2])) {
-      report.uncertain.push_back(made.tree.box(made.tree.leaves()[crowded[i]]).center());
-    }
-  }
+  report.uncertain = entangled_leaves(made.tree, made.contour);
 }
 
 std::optional<Polygonized> polygonize_in_arena(const Field& field, const PolygonizeOptions& options, const RunOptions& run) {

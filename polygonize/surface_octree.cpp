@@ -30,8 +30,10 @@ double LeafRule::edge(double radius) const {
 }
 
 double SurfaceOctree::narrow() const {
-  if (!(rule_.shortest_gap > 0) || !std::isfinite(rule_.shortest_gap)) return 0;
-  return std::ldexp(grid_.cell, std::max(0, std::ilogb(2 * rule_.shortest_gap / grid_.cell)));
+  if (!(rule_.shortest_gap > 0)) return 0;
+  double width = grid_.cell;
+  while (2 * width < 2 * rule_.shortest_gap) width *= 2;
+  return width;
 }
 
 /// Samples the corners of a cube cut into equal parts: which are inside, and which parts have an edge between two corners of the

@@ -1,0 +1,67 @@
+#include "polygonize/crowded_leaves.h"
+
+#include <algorithm>
+
+namespace cambium {
+namespace {
+
+struct Sheet {
+  Vec3 middle{0.0}, normal{0.0};
+  std::vector<Vec3> points;
+};
+
+Sheet sheet_of(const SurfaceOctree& tree, const Contour& contour, std::uint32_t patch) {
+  Sheet sheet;
+  for (const std::uint32_t e : contour.ring(patch)) {
+    sheet.points.push_back(crossing_point(tree, contour, e));
+    sheet.middle += sheet.points.back();
+    sheet.normal += Vec3(contour.crossings[e].normal);
+  }
+  sheet.middle /= static_cast<double>(sheet.points.size());
+  return sheet;
+}
+
+bool apart_along(const Vec3& direction, const Sheet& a, const Sheet& b) {
+  double highest = -kInfinity, lowest = kInfinity;
+  for (const Vec3& p : a.points) highest = std::max(highest, glm::dot(direction, p - a.middle));
+  for (const Vec3& p : b.points) lowest = std::min(lowest, glm::dot(direction, p - a.middle));
+  return highest < lowest;
+}
+
+bool apart(const Sheet& a, const Sheet& b) {
+  for (const Vec3& direction : {b.middle - a.middle, a.normal, -b.normal, a.normal - b.normal, Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+    if (apart_along(direction, a, b) || apart_along(-direction, a, b)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> crowded_patches(const Contour& contour) {
+  std::vector<bool> crowded(contour.patches.size(), false);
+  for (std::size_t p = 1; p < contour.patches.size(); ++p) {   // patches of a leaf stand together
+    if (contour.patches[p].leaf == contour.patches[p - 1].leaf) crowded[p] = crowded[p - 1] = true;
+  }
+  return crowded;
+}
+
+std::vector<Vec3> entangled_leaves(const SurfaceOctree& tree, const Contour& contour) {
+  std::vector<Vec3> found;
+  for (std::uint32_t begin = 0; begin < contour.patches.size();) {
+    const std::uint32_t leaf = contour.patches[begin].leaf;
+    std::vector<Sheet> sheets;
+    std::uint32_t end = begin + 1;
+    while (end < contour.patches.size() && contour.patches[end].leaf == leaf) ++end;
+    if (end > begin + 1) {
+      for (std::uint32_t p = begin; p < end; ++p) sheets.push_back(sheet_of(tree, contour, p));
+      bool entangled = false;
+      for (std::size_t i = 0; i < sheets.size(); ++i)
+        for (std::size_t j = i + 1; j < sheets.size(); ++j) entangled = entangled || !apart(sheets[i], sheets[j]);
+      if (entangled) found.push_back(tree.box(tree.leaves()[leaf]).center());
+    }
+    begin = end;
+  }
+  return found;
+}
+
+}  // namespace cambium
