@@ -41,43 +41,31 @@ double SurfaceOctree::narrow() const {
 class SurfaceOctree::Sampler {
  public:
   /// What becomes of the cube is written to subtree; its root is the result. merge: eight leaves without a crossing are one.
+  /// It is cut `cuts` times (at most kMostCuts), and parts with a crossing further, until they are on level `wanted`.
   Node cut(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level, int cuts,
-           bool merge, Subtree& subtree) {
-    merge_ = merge;
+           int wanted, bool merge, Subtree& subtree) {
+    merge_ = merge, wanted_ = wanted;
     sample(tree, field, place, level - cuts, cuts);
     // Parts in the order of the octree: the children of each node together.
-    std::vector<std::pair<std::uint32_t, int>> suspects;   // leaf, its level
-    const Node root = descend(cell, place, level, {0, 0, 0}, cuts, subtree, suspects);
-    for (const auto& [leaf, leaf_level] : suspects) {
-      if (leaf_level == 0 || std::ldexp(tree.grid_.cell, leaf_level) <= tree.narrow()) continue;
-      const OctreeLeaf old = subtree.leaves[leaf];
-      again_.push_back({leaf, old});
+    std::vector<Unfinished> unfinished;
+    Node root = descend(cell, place, level, {0, 0, 0}, cuts, kRoot, subtree, unfinished);
+    // The sampler's arrays were in use until here.
+    for (const Unfinished& part : unfinished) {
+      const OctreeLeaf old = subtree.leaves[part.leaf];
+      const int too_high = old.uniform() ? 0 : old.level - wanted;
+      if (too_high <= 0 && (old.level == 0 || std::ldexp(tree.grid_.cell, old.level) <= tree.narrow())) continue;
+      const Node made = cut(tree, field, cell, old.place, old.level, std::clamp(too_high, 1, kMostCuts), wanted, merge, subtree);
+      (part.slot == kRoot ? root : subtree.nodes[part.slot]) = made;
     }
-    // The sampler's arrays are in use until here.
-    const auto again = std::move(again_);
-    again_ = {};
-    Node result = root;
-    for (const auto& [leaf, old] : again) {
-      const Node made = cut(tree, field, cell, old.place, old.level, 1, merge, subtree);
-      replace(subtree, result, leaf, made);
-    }
-    return result;
+    return root;
   }
 
  private:
-  static void replace(Subtree& subtree, Node& root, std::uint32_t leaf, Node made) {
-    const std::uint32_t word = leaf | Node::kLeafBit;
-    if (root.word == word) {
-      root = made;
-      return;
-    }
-    for (std::size_t i = subtree.nodes.size(); i-- > 0;) {   // it was made lately
-      if (subtree.nodes[i].word == word) {
-        subtree.nodes[i] = made;
-        return;
-      }
-    }
-  }
+  /// A leaf that is to be cut further, and the node that holds it.
+  struct Unfinished {
+    std::uint32_t leaf = 0, slot = 0;
+  };
+  static constexpr std::uint32_t kRoot = 0xffffffffu;
 
   int at(int x, int y, int z) const { return x + side_ * (y + side_ * z); }
 
@@ -117,13 +105,11 @@ class SurfaceOctree::Sampler {
   // corner asks the same field, that of the cover's cell it is in, also a little beyond it.
   void fill_cracks(const SurfaceOctree& tree, const PrunedField& field, const CellPlace& place, int level) {
     const double width = tree.narrow();
-    if (!(width > 0) || ChoiceEvaluator::smooth(field)) return;
-    // No field of these radii falls by more over that way, but for scars.
-    const float reach = std::min(0.5f, static_cast<float>(2 * width / field.smallest_radius()));
+    if (!(width > 0)) return;
     for (int z = 0, i = 0; z < side_; ++z)
       for (int y = 0; y < side_; ++y)
         for (int x = 0; x < side_; ++x, ++i) {
-          if (inside_[i] || f_[i] < -reach) continue;
+          if (inside_[i] || f_[i] < -kFarthest - kDoubtfulValue) continue;
           const bool within = x > 0 && y > 0 && z > 0 && x < parts_ && y < parts_ && z < parts_;
           const Vec3 p = tree.point(offset(place, x, y, z, level));
           PrunedField home = field;
@@ -132,10 +118,24 @@ class SurfaceOctree::Sampler {
             if (!cell) continue;
             home = tree.cover_->cube_field(*cell);
           }
-          if (!in_crack(home, p, width)) continue;
+          if (ChoiceEvaluator::smooth(home)) continue;
+          // No field of these radii falls by more over that way, but for scars.
+          const double reach = std::min(static_cast<double>(kFarthest), 2 * width / home.smallest_radius());
+          if (static_cast<double>(f_[i]) < -reach - static_cast<double>(kDoubtfulValue)) continue;
+          if (evaluator_.value(home, p) - kIso < -reach || !in_crack(home, p, width)) continue;
+          if (!within && beside_nothing(tree, p)) continue;
           inside_[i] = 1;
           f_[i] = 0;
         }
+  }
+
+  // No surface may come to lie against a place that the cover has no cell for.
+  static bool beside_nothing(const SurfaceOctree& tree, const Vec3& p) {
+    for (int c = 0; c < 8; ++c) {
+      const Vec3 away(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
+      if (!tree.cover_->find(p + 0.5 * tree.grid_.cell * away)) return true;
+    }
+    return false;
   }
 
   bool in_crack(const PrunedField& field, const Vec3& p, double width) {
@@ -205,8 +205,8 @@ class SurfaceOctree::Sampler {
     }
   }
 
-  Node descend(std::uint32_t cell, const CellPlace& place, int level, const std::array<int, 3>& part, int cuts, Subtree& subtree,
-               std::vector<std::pair<std::uint32_t, int>>& suspects) {
+  Node descend(std::uint32_t cell, const CellPlace& place, int level, const std::array<int, 3>& part, int cuts, std::uint32_t slot,
+               Subtree& subtree, std::vector<Unfinished>& unfinished) {
     if (cuts == 0) {
       OctreeLeaf leaf{cell, place, static_cast<std::uint8_t>(level), 0};
       for (int c = 0; c < 8; ++c) {
@@ -214,10 +214,11 @@ class SurfaceOctree::Sampler {
       }
       const auto id = static_cast<std::uint32_t>(subtree.leaves.size());
       subtree.leaves.push_back(leaf);
-      if (suspect_[static_cast<std::size_t>(part[0] + parts_ * (part[1] + parts_ * part[2]))]) suspects.push_back({id, level});
+      const bool suspect = suspect_[static_cast<std::size_t>(part[0] + parts_ * (part[1] + parts_ * part[2]))];
+      if (suspect || (level > wanted_ && !leaf.uniform())) unfinished.push_back({id, slot});
       return {id | Node::kLeafBit};
     }
-    const std::size_t leaves_before = subtree.leaves.size(), suspects_before = suspects.size();
+    const std::size_t leaves_before = subtree.leaves.size(), unfinished_before = unfinished.size();
     const std::size_t nodes_before = subtree.nodes.size();
     const auto first = static_cast<std::uint32_t>(nodes_before);
     subtree.nodes.resize(first + 8);
@@ -225,10 +226,10 @@ class SurfaceOctree::Sampler {
     for (int c = 0; c < 8; ++c) {
       const std::array<int, 3> child_part{part[0] + (c & 1) * half, part[1] + (c >> 1 & 1) * half, part[2] + (c >> 2) * half};
       const Node made = descend(cell, offset(place, c & 1, c >> 1 & 1, c >> 2, level - 1), level - 1, child_part, cuts - 1,
-                                subtree, suspects);
+                                first + static_cast<std::uint32_t>(c), subtree, unfinished);
       subtree.nodes[first + static_cast<std::uint32_t>(c)] = made;
     }
-    if (merge_ && subtree.leaves.size() == leaves_before + 8 && suspects.size() == suspects_before) {
+    if (merge_ && subtree.leaves.size() == leaves_before + 8 && unfinished.size() == unfinished_before) {
       const std::uint8_t mask = subtree.leaves[leaves_before].mask;
       const bool same = (mask == 0 || mask == 255) && std::all_of(subtree.leaves.begin() + static_cast<std::ptrdiff_t>(leaves_before),
                                                                   subtree.leaves.end(), [&](const auto& l) { return l.mask == mask; });
@@ -248,14 +249,15 @@ class SurfaceOctree::Sampler {
     bool inside;
   };
   static constexpr int kCrackSteps = 8;
+  static constexpr float kFarthest = 0.5f;   // below kIso: where nothing is
   Evaluator evaluator_;
   FieldBatch crack_;
   bool merge_ = true;
+  int wanted_ = 0;
   int parts_ = 0, side_ = 0;
   std::vector<float> x_, y_, z_, f_, gx_, gy_, gz_, px_, py_, pz_, pf_;
   std::vector<std::uint8_t> inside_, suspect_;
   std::vector<Probe> probes_;
-  std::vector<std::pair<std::uint32_t, OctreeLeaf>> again_;
 };
 
 SurfaceOctree::Node SurfaceOctree::adopt(const Subtree& subtree, std::size_t nodes_at, std::size_t leaves_at) {
@@ -309,10 +311,11 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
     const int level = cover.level(i) + finer;
     CellPlace place = cover.place(i);
     for (std::uint32_t& along : place) along <<= finer;
-    int cuts = 0;
-    while (cuts < std::min(level, kMostCuts) && std::ldexp(tree.grid_.cell, level - cuts) > wanted) ++cuts;
+    int wanted_level = level;
+    while (wanted_level > 0 && std::ldexp(tree.grid_.cell, wanted_level) > wanted) --wanted_level;
+    const int cuts = std::min(level - wanted_level, kMostCuts);
     subtrees[i].root =
-        samplers.local().cut(tree, field, static_cast<std::uint32_t>(i), place, level, cuts, true, subtrees[i]);
+        samplers.local().cut(tree, field, static_cast<std::uint32_t>(i), place, level, cuts, wanted_level, true, subtrees[i]);
   });
   if (run.cancelled()) return std::nullopt;
   std::vector<std::size_t> nodes_at(cover.size() + 1, 0), leaves_at(cover.size() + 1, 0);
@@ -387,6 +390,7 @@ std::optional<std::uint32_t> SurfaceOctree::find_beside(const OctreeLeaf& leaf, 
 std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::vector<std::uint32_t> wanted, const RunOptions& run) {
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  std::erase_if(wanted, [&](std::uint32_t leaf) { return leaves_[leaf].level == 0; });
   std::vector<std::uint32_t> leaves = with_larger_neighbours(std::move(wanted));
   cover_ = &cover;
   std::vector<Subtree> subtrees(leaves.size());
@@ -395,7 +399,7 @@ std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::
     if (run.cancelled()) return;
     const OctreeLeaf& leaf = leaves_[leaves[i]];
     subtrees[i].root =
-        samplers.local().cut(*this, cover.cube_field(leaf.cell), leaf.cell, leaf.place, leaf.level, 1, false, subtrees[i]);
+        samplers.local().cut(*this, cover.cube_field(leaf.cell), leaf.cell, leaf.place, leaf.level, 1, leaf.level, false, subtrees[i]);
   });
   cover_ = nullptr;
   if (run.cancelled()) return {};

@@ -75,7 +75,7 @@ class SurfaceOctree {
   }
   /// The leaf in quadrant `to` around the low end of the edge of a leaf along `axis` that it sees from quadrant `from`, or none.
   std::optional<std::uint32_t> find_beside(const OctreeLeaf& leaf, int axis, int from, int to) const;
-  /// Cuts each leaf listed (none on level 0) into eight, with neighbours that are larger. Cut leaves' numbers die; the eight get
+  /// Cuts each leaf listed, but for those on level 0, into eight, with neighbours that are larger. Cut leaves' numbers die; the eight get
   /// new ones, from leaves().size() on. Returns those that were cut, ascending; empty if cancelled. Cost: that of the leaves cut.
   std::vector<std::uint32_t> split(const SurfaceCover& cover, std::vector<std::uint32_t> leaves, const RunOptions& run);
 
