@@ -280,9 +280,19 @@ class PolygonBuilder {
     if (!first && !second) return plan;
     plan.fan = false;
     plan.triangles = 2;
-    plan.other_diagonal =
-        !first || (second && diagonal_score(p[1], p[2], p[3], p[0]) > diagonal_score(p[0], p[1], p[2], p[3]));
+    plan.other_diagonal = !first || (second && other_is_better(ring, p));
     return plan;
+  }
+
+  /// Of two diagonals that fit: the one that is much closer to the surface, else the one with the better triangles.
+  bool other_is_better(const Ring& ring, const std::array<Vec3, 4>& p) const {
+    const auto bow = [&](int i, int j) {   // over the chord, eight times, as the normals tell
+      const PatchVertex &a = contour_.vertices[ring.patches[i]], &b = contour_.vertices[ring.patches[j]];
+      return a.crease || b.crease ? 0 : std::abs(glm::dot(Vec3(b.normal - a.normal), b.position - a.position));
+    };
+    const double one = bow(0, 2), other = bow(1, 3), larger = std::max(one, other);
+    if (larger > 0.01 * glm::length(p[2] - p[0]) && std::min(one, other) < 0.75 * larger) return other < one;
+    return diagonal_score(p[1], p[2], p[3], p[0]) > diagonal_score(p[0], p[1], p[2], p[3]);
   }
 
   DualMesh write() const {

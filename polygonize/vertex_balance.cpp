@@ -32,6 +32,25 @@ double height_over(const Ring& ring, const std::vector<Vec3>& positions, const V
   return std::abs(height) < nearest ? height : std::copysign(nearest, height);
 }
 
+/// How far the surface is from the middle of the chord between two vertices, metres, as their normals tell; 0 where they do not, on
+/// creases. p and q: where the vertices are now.
+double chord_error(const PatchVertex& a, const PatchVertex& b, const Vec3& p, const Vec3& q) {
+  if (a.crease || b.crease || glm::dot(a.normal, b.normal) < 0.5f) return 0;
+  const Vec3 n(a.normal), m(b.normal);
+  const double outwards = (glm::dot(p - a.position, n) + glm::dot(q - b.position, m)) / 2;
+  return std::abs(glm::dot(m - n, b.position - a.position) / 8 - outwards);
+}
+
+/// A polygon over a crease that its vertices are not on: it lies across the edge, and moving them out would bulge the sheets.
+bool bends(const Contour& contour, std::uint32_t edge) {
+  constexpr float kBent = 0.5f;   // cosine; a twig of six sides turns by 30 degrees from a vertex to its edges
+  for (const std::uint32_t patch : contour.patch_of_quadrant[edge]) {
+    const PatchVertex& vertex = contour.vertices[patch];
+    if (!vertex.crease && glm::dot(vertex.normal, contour.crossings[edge].normal) < kBent) return true;
+  }
+  return false;
+}
+
 class Marks {
  public:
   explicit Marks(std::size_t n) : marked_(n, 0) {}
@@ -87,7 +106,9 @@ void VertexBalance::update(const SurfaceOctree& tree, const Contour& contour, co
     positions_[p] = on_surface_[p];
     if (contour.vertices[p].crease) return;
     double sum = 0;
-    for (const std::uint32_t e : contour.ring(p)) sum += static_cast<double>(heights_[e]);
+    for (const std::uint32_t e : contour.ring(p)) {
+      if (!bends(contour, e)) sum += static_cast<double>(heights_[e]);
+    }
     const double outwards = std::clamp(0.5 * sum / contour.patches[p].edge_count, -0.5 * tolerance_, 0.5 * tolerance_);
     const OctreeLeaf& leaf = tree.leaves()[contour.patches[p].leaf];
     const Box box = tree.box(leaf);
@@ -95,7 +116,18 @@ void VertexBalance::update(const SurfaceOctree& tree, const Contour& contour, co
     positions_[p] = glm::clamp(on_surface_[p] + outwards * Vec3(contour.vertices[p].normal), box.lo + margin, box.hi - margin);
   });
   changed_edges_ = edges_of(contour, patches);
-  for_each(changed_edges_, [&](std::uint32_t e) { errors_[e] = std::abs(height(e, positions_)); });
+  // On a saddle the middle of a polygon may be on the surface while its sides are off on either hand.
+  const auto off_between = [&](std::uint32_t p, std::uint32_t q) {
+    return static_cast<float>(chord_error(contour.vertices[p], contour.vertices[q], positions_[p], positions_[q]));
+  };
+  for_each(changed_edges_, [&](std::uint32_t e) {
+    const Ring ring = ring_of(contour.edges[e], contour.patch_of_quadrant[e]);
+    const auto& v = ring.patches;
+    float error = std::abs(height(e, positions_));
+    for (int k = 0; k < ring.count; ++k) error = std::max(error, off_between(v[k], v[(k + 1) % ring.count]));
+    if (ring.count == 4) error = std::max(error, std::min(off_between(v[0], v[2]), off_between(v[1], v[3])));
+    errors_[e] = error;
+  });
 }
 
 }  // namespace cambium

@@ -17,7 +17,8 @@ class VertexBalance {
 
   /// By patch: strictly inside its leaf.
   const std::vector<Vec3>& positions() const { return positions_; }
-  /// By edge: of the polygon's mean plane from the surface where that crosses the edge, metres.
+  /// By edge: of the polygon from the surface, metres: its mean plane where the surface crosses the edge, its sides, and the better
+  /// of its diagonals.
   float error(std::uint32_t edge) const { return errors_[edge]; }
   /// Whose errors the last update changed, ascending.
   const std::vector<std::uint32_t>& changed_edges() const { return changed_edges_; }
