@@ -435,6 +435,75 @@ TEST(SurfaceCover, OfAFieldWithoutSurfaceIsEmpty) {
   }
 }
 
+TEST(SurfaceCover, CubeFieldsAreTheWholeFieldInAllOfTheirCubes) {
+  Evaluator evaluator;
+  std::size_t asked = 0, outside_the_box = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Field field(seed % 2 ? random_blobtree(seed, 3) : strained_blobtree(seed / 2 % strains().size(), seed).tree);
+    if (field.bounds().empty()) continue;
+    const SurfaceCover cover = cover_surface(field, constant(longest_edge(field.bounds()) / 9), {}).value();
+    Draws draws(seed);
+    for (std::size_t i = 0; i < cover.size(); ++i) {
+      const PrunedField of_cube = cover.cube_field(i);
+      const Box cube = cover.cube(i);
+      EXPECT_EQ(of_cube.box().lo, cube.lo);
+      EXPECT_EQ(of_cube.box().hi, cube.hi);
+      for (int k = 0; k < 12; ++k) {   // its corners, and four points inside
+        const Vec3 corner(k & 1 ? cube.hi.x : cube.lo.x, k & 2 ? cube.hi.y : cube.lo.y, k & 4 ? cube.hi.z : cube.lo.z);
+        const Vec3 p = k < 8 ? corner : draws.point(cube);
+        ASSERT_EQ(evaluator.value(of_cube, p), field.value(p)) << "cell " << i;
+        ++asked;
+        outside_the_box += !cover.box(i).contains(p);
+      }
+    }
+  }
+  EXPECT_GT(asked, 10000u);
+  EXPECT_GT(outside_the_box, 100u) << "the case this is for";
+}
+
+TEST(SurfaceCover, CellsAreAUnitTimesAPowerOfTwo) {
+  for (const double unit : {0.003, 0.0071, 0.05}) {
+    CoverOptions options;
+    options.unit = unit;
+    const SurfaceCover cover = cover_surface(trunk_and_twig(), options, {}).value();
+    ASSERT_GT(cover.size(), 10u);
+    EXPECT_EQ(cover.grid().cell, unit);
+    int levels = 0;
+    for (std::size_t i = 0; i < cover.size(); ++i) {
+      EXPECT_NEAR(longest_edge(cover.cube(i)) / std::ldexp(unit, cover.level(i)), 1, 1e-9);
+      levels |= 1 << cover.level(i);
+    }
+    EXPECT_GT(levels & (levels - 1), 0) << "of one size only";
+  }
+  CoverOptions bad;
+  for (const double unit : {0.0, -1.0, std::nan(""), kInfinity, 1e-12}) {
+    bad.unit = unit;
+    EXPECT_THROW(cover_surface(trunk_and_twig(), bad, {}), InputError) << unit;
+  }
+}
+
+TEST(SurfaceCover, ASagittaLimitsCellsByTheRootOfTheirRadius) {
+  CoverOptions options;
+  options.unit = 0.0005;
+  options.cell_radii = options.sparse_radii = 100;
+  options.sagitta = 0.02;
+  const SurfaceCover cover = cover_surface(trunk_and_twig(), options, {}).value();
+  double trunk = 0, twig = 0;
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    const double edge = longest_edge(cover.cube(i)), radius = cover.field(i).smallest_radius();
+    ASSERT_LE(edge, std::sqrt(0.02 * radius) * (1 + 1e-12));
+    (radius > 0.1 ? trunk : twig) = std::max(radius > 0.1 ? trunk : twig, edge);
+  }
+  // Cells are halved, so they are more than half of what they may be.
+  EXPECT_GT(trunk, std::sqrt(0.02 * 0.25) / 2);
+  EXPECT_GT(twig, std::sqrt(0.02 * 0.008) / 2);
+  options.cell_radii = options.sparse_radii = 0.5;   // the shorter of both counts
+  const SurfaceCover finer = cover_surface(trunk_and_twig(), options, {}).value();
+  for (std::size_t i = 0; i < finer.size(); ++i)
+    ASSERT_LE(longest_edge(finer.cube(i)), 0.5 * finer.field(i).smallest_radius() * (1 + 1e-12));
+}
+
 TEST(SurfaceCover, StopsWhenCancelled) {
   const Field field = trunk_and_twig();
   std::atomic<bool> cancel{true};

@@ -1,0 +1,134 @@
+#include "polygonize/contour.h"
+
+#include "polygonize/polygon_ring.h"
+#include "tests/polygonize/mesh_checks.h"
+#include "tests/polygonize/octrees.h"
+#include "tests/polygonize/sample_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace cambium {
+namespace {
+
+using testing::coarse_octree;
+using testing::OnOctree;
+
+using EdgeKey = std::tuple<int, CellPlace, int>;   // axis, low end, level
+
+EdgeKey key_of(const SurfaceOctree& tree, const MinimalEdge& edge) {
+  return {edge.axis, testing::low_place(tree, edge), tree.leaves()[edge.owner()].level};
+}
+
+/// By edge: its crossing; and the patches as sets of their leaf and edges, each with its vertex.
+struct Described {
+  std::map<EdgeKey, float> crossings;
+  std::map<std::pair<CellPlace, std::set<EdgeKey>>, std::tuple<std::array<double, 3>, bool>> patches;
+};
+
+Described described(const SurfaceOctree& tree, const Contour& contour) {
+  Described result;
+  for (std::size_t i = 0; i < contour.edges.size(); ++i) result.crossings[key_of(tree, contour.edges[i])] = contour.crossings[i].t;
+  for (std::uint32_t p = 0; p < contour.patches.size(); ++p) {
+    std::set<EdgeKey> ring;
+    for (const std::uint32_t e : contour.ring(p)) ring.insert(key_of(tree, contour.edges[e]));
+    const Vec3& at = contour.vertices[p].position;
+    result.patches[{tree.leaves()[contour.patches[p].leaf].place, ring}] = {{at.x, at.y, at.z}, contour.vertices[p].crease};
+  }
+  return result;
+}
+
+std::vector<std::uint32_t> some_leaves(const SurfaceOctree& tree, Draws& draws, double share) {
+  std::vector<std::uint32_t> leaves;
+  for (const std::uint32_t leaf : testing::live_leaves(tree))
+    if (tree.leaves()[leaf].level > 0 && draws.chance(share)) leaves.push_back(leaf);
+  return leaves;
+}
+
+// What is kept from round to round must be what the octree as it is now would give.
+TEST(ContourRefiner, KeepsWhatBeginningAnewWouldFind) {
+  std::size_t edges = 0, relinked = 0;
+  for (std::uint64_t seed = 1; seed <= 36; ++seed) {
+    SCOPED_TRACE(seed);
+    const Field field = testing::any_field(seed);
+    Draws draws(seed);
+    OnOctree on = coarse_octree(field, testing::longest_side(field) / (4 + draws.below(6)), 3);
+    ContourRefiner refiner = ContourRefiner::begin(on.tree, on.cover, {}).value();
+    for (int round = 0; round < 4; ++round) {
+      if (round > 0) {
+        ASSERT_TRUE(refiner.split(some_leaves(refiner.tree(), draws, 0.04), {}));
+      }
+      if (round != 1) {   // rounds need not place what they find
+        ASSERT_TRUE(refiner.place({}));
+      }
+    }
+    EXPECT_TRUE(crossed_minimal_edges(refiner.tree(), {})->to_split.empty());
+    const Contour kept = compacted(refiner.contour());
+    ContourRefiner fresh = ContourRefiner::begin(refiner.tree(), on.cover, {}).value();
+    ASSERT_EQ(fresh.tree().leaves().size(), refiner.tree().leaves().size()) << "something had to be cut";
+    ASSERT_TRUE(fresh.place({}));
+    const Described now = described(refiner.tree(), kept), anew = described(fresh.tree(), compacted(fresh.contour()));
+    ASSERT_EQ(now.crossings.size(), anew.crossings.size());
+    for (auto a = now.crossings.begin(), b = anew.crossings.begin(); a != now.crossings.end(); ++a, ++b) {
+      ASSERT_EQ(a->first, b->first);
+      ASSERT_NEAR(a->second, b->second, 5e-3f);   // the owner, and so the cell whose field is asked, may be another
+    }
+    EXPECT_EQ(now.patches.size(), anew.patches.size());
+    std::size_t other = 0;
+    for (const auto& [patch, vertex] : now.patches) other += !anew.patches.contains(patch);
+    if (refiner.relinked_faces() == 0 && fresh.relinked_faces() == 0) {
+      EXPECT_EQ(other, 0u);
+    }
+    edges += now.crossings.size();
+    relinked += refiner.relinked_faces();
+  }
+  EXPECT_GT(edges, 10000u);
+  EXPECT_GT(relinked, 0u) << "a case this is for";
+}
+
+TEST(ContourRefiner, StaysAManifoldFromRoundToRoundWhateverTheSignsAre) {
+  std::size_t relinked = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Draws draws(seed);
+    OnOctree on = coarse_octree(testing::noise_field(seed, 500), draws.in(0.1, 0.2), 3);
+    ContourRefiner refiner = ContourRefiner::begin(on.tree, on.cover, {}).value();
+    for (int round = 0; round < 4; ++round) {
+      if (round > 0) {
+        ASSERT_TRUE(refiner.split(some_leaves(refiner.tree(), draws, 0.03), {}));
+      }
+      ASSERT_TRUE(refiner.place({}));
+      const Contour contour = compacted(refiner.contour());
+      Mesh mesh;
+      for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
+        const Ring ring = ring_of(contour.edges[i], contour.patch_of_quadrant[i]);
+        const auto center = static_cast<std::uint32_t>(contour.patches.size()) + i;
+        for (int k = 0; k < ring.count; ++k) mesh.triangles.push_back({center, ring.patches[k], ring.patches[(k + 1) % ring.count]});
+      }
+      const auto checks = testing::check_mesh(mesh, false, contour.patches.size() + contour.edges.size());
+      ASSERT_TRUE(checks.closed_manifold()) << "round " << round << ": " << checks;
+      relinked += refiner.relinked_faces();
+    }
+  }
+  EXPECT_GT(relinked, 10u) << "the case this is for";
+}
+
+TEST(ContourRefiner, StopsWhenCancelled) {
+  OnOctree on = coarse_octree(testing::noise_field(3), 0.2, 3);
+  std::atomic<bool> cancel{true};
+  RunOptions run;
+  run.cancel = &cancel;
+  EXPECT_FALSE(ContourRefiner::begin(on.tree, on.cover, run));
+  ContourRefiner refiner = ContourRefiner::begin(on.tree, on.cover, {}).value();
+  EXPECT_FALSE(refiner.place(run));
+  Draws draws(1);
+  EXPECT_FALSE(refiner.split(some_leaves(refiner.tree(), draws, 0.1), run));
+}
+
+}  // namespace
+}  // namespace cambium
