@@ -35,15 +35,6 @@ struct EdgeFrame {
   Vec3 local(const Vec3& p) const { return {p[b] - at_b, p[c] - at_c, p[a]}; }
 };
 
-double cross2(const Vec3& p, const Vec3& q) { return p.x * q.y - p.y * q.x; }
-
-/// Height at which the line through the edge meets a triangle (local coordinates), or none.
-std::optional<double> pierced_at(const Vec3& p, const Vec3& q, const Vec3& r) {
-  const double u = cross2(q, r), v = cross2(r, p), w = cross2(p, q);
-  if (!((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0))) return std::nullopt;
-  return (u * p.z + v * q.z + w * r.z) / (u + v + w);
-}
-
 /// Whether the segment p-q passes between the edge and the vertex v within the triangle that they span.
 bool passes(const EdgeFrame& frame, const Vec3& p, const Vec3& q, const Vec3& v) {
   const double side_p = cross2(v, p), side_q = cross2(v, q);
@@ -121,8 +112,9 @@ struct FaceVertex {
 
 class PolygonBuilder {
  public:
-  PolygonBuilder(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<Vec3>& positions)
-      : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings), positions_(positions), creases_(crease_edges(contour)), crowded_(crowded_patches(contour)) {
+  PolygonBuilder(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<Vec3>& positions,
+                 double tolerance)
+      : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings), positions_(positions), tolerance_(tolerance), creases_(crease_edges(contour)), crowded_(crowded_patches(contour)) {
     // Of a leaf with several patches each keeps to the hull of its own crossings, so that those of parallel sheets are apart.
     for (std::uint32_t p = 0; p < positions_.size(); ++p) {
       if (!crowded_[p]) continue;
@@ -280,14 +272,18 @@ class PolygonBuilder {
     if (!first && !second) return plan;
     plan.fan = false;
     plan.triangles = 2;
-    plan.other_diagonal = !first || (second && other_is_better(ring, p));
+    plan.other_diagonal = !first || (second && other_is_better(i, ring, p));
     return plan;
   }
 
-  /// Of two diagonals that fit: the one that is much closer to the surface, else the one with the better triangles.
-  bool other_is_better(const Ring& ring, const std::array<Vec3, 4>& p) const {
-    const auto bow = [&](int i, int j) {   // over the chord, eight times, as the normals tell
-      const PatchVertex &a = contour_.vertices[ring.patches[i]], &b = contour_.vertices[ring.patches[j]];
+  // Of two diagonals that fit: the one that is closer to the surface where one of them is off (along a crease, say, the other way
+  // cuts it), else the one with the better triangles.
+  bool other_is_better(std::size_t i, const Ring& ring, const std::array<Vec3, 4>& p) const {
+    const PolygonFit fit = polygon_fit(ring, positions_, crossing_point(static_cast<std::uint32_t>(i)), edges_[i].axis);
+    if (fit.error[0] > tolerance_ / 2 && fit.error[1] < fit.error[0]) return true;
+    if (fit.error[1] > tolerance_ / 2 && fit.error[0] < fit.error[1]) return false;
+    const auto bow = [&](int k, int j) {   // over the chord, eight times, as the normals tell
+      const PatchVertex &a = contour_.vertices[ring.patches[k]], &b = contour_.vertices[ring.patches[j]];
       return a.crease || b.crease ? 0 : std::abs(glm::dot(Vec3(b.normal - a.normal), b.position - a.position));
     };
     const double one = bow(0, 2), other = bow(1, 3), larger = std::max(one, other);
@@ -379,6 +375,7 @@ class PolygonBuilder {
   const std::vector<MinimalEdge>& edges_;
   const std::vector<Crossing>& crossings_;
   std::vector<Vec3> positions_;
+  const double tolerance_;
   std::vector<std::array<std::uint32_t, 2>> creases_;
   const std::vector<bool> crowded_;
   std::vector<FaceVertex> faces_;
@@ -388,8 +385,8 @@ class PolygonBuilder {
 }  // namespace
 
 std::optional<DualMesh> build_polygons(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
-                                       const std::vector<Vec3>& positions, const RunOptions& run) {
-  return PolygonBuilder(tree, cover, contour, positions).build(run);
+                                       const std::vector<Vec3>& positions, double tolerance, const RunOptions& run) {
+  return PolygonBuilder(tree, cover, contour, positions, tolerance).build(run);
 }
 
 }  // namespace cambium

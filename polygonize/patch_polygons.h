@@ -19,8 +19,9 @@ struct DualMesh {
 
 /// Of a compacted contour; positions: of its patches' vertices, each strictly inside its leaf. Where every leaf has one patch, no two
 /// triangles meet but in what they share.
-/// nullopt if cancelled. Cost: linear in the edges.
+/// tolerance: a diagonal that is off by more than half of it gives way to a better one. nullopt if cancelled. Cost: linear in the
+/// edges.
 std::optional<DualMesh> build_polygons(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
-                                       const std::vector<Vec3>& positions, const RunOptions& run);
+                                       const std::vector<Vec3>& positions, double tolerance, const RunOptions& run);
 
 }  // namespace cambium

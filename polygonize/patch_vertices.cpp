@@ -8,7 +8,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace cambium {
 namespace {
@@ -123,11 +125,13 @@ class VertexPlacer {
       side_of_.push_back(static_cast<std::size_t>(known - sides_.begin()));
       if (known == sides_.end()) sides_.push_back(choice_);
     }
-    if (sides_.size() < 2 || sides_.size() > kMostSides) return;
+    if (sides_.size() < 2) return;
     Box within = placed.box;
     within.lo += kVertexMargin * placed.edge;
     within.hi -= kVertexMargin * placed.edge;
-    const auto found = find_crease(choices_, field, sides_, placed.best, within);
+    std::optional<CreasePoint> found;
+    if (sides_.size() <= kMostSides) found = find_crease(choices_, field, sides_, placed.best, within);
+    if (!found) found = find_from_faces(field, placed, within);
     if (!found || found->kind == CreaseKind::kNone) return;
     vertex.position = found->position;
     vertex.crease = true;
@@ -139,6 +143,46 @@ class VertexPlacer {
       const std::size_t j = (i + 1) % ring.size();
       if (side_of_[i] != side_of_[j]) exits.push_back({placed.patch, ring[i], ring[j]});
     }
+  }
+
+  // A crease that the nearest step does not find inside the leaf is looked for on the faces through which it enters and leaves, and
+  // from between them. The chord between those is inside, and as near to the crease as polygons are.
+  std::optional<CreasePoint> find_from_faces(const PrunedField& field, const Placed& placed, const Box& within) {
+    const auto ring = contour_.ring(placed.patch);
+    CreasePoint entries;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t j = (i + 1) % ring.size();
+      if (side_of_[i] == side_of_[j]) continue;
+      const Vec3 p = crossing_point(ring[i]), q = crossing_point(ring[j]);
+      const auto axis = face_axis(placed, p, q);
+      if (!axis) continue;
+      const std::array<Choices, 2> sides{sides_[side_of_[i]], sides_[side_of_[j]]};
+      const auto entry = find_crease(choices_, field, sides, (p + q) / 2.0, placed.box, axis);
+      if (!entry || entry->kind == CreaseKind::kNone) continue;
+      entries.position += entry->position - placed.box.lo;
+      entries.normals.insert(entries.normals.end(), entry->normals.begin(), entry->normals.end());
+      ++count;
+    }
+    if (count < 2) return std::nullopt;
+    const Vec3 middle = clamp_into(placed.box.lo + entries.position / static_cast<double>(count), placed.box, kVertexMargin * placed.edge);
+    if (sides_.size() <= kMostSides) {
+      if (auto found = find_crease(choices_, field, sides_, middle, within)) return found;
+    }
+    entries.position = middle;
+    entries.kind = CreaseKind::kCurve;
+    return entries;
+  }
+
+  /// The axis across the face of the leaf that two of its crossings lie on.
+  static std::optional<int> face_axis(const Placed& placed, const Vec3& p, const Vec3& q) {
+    const double near = 1e-6 * placed.edge;
+    for (int a = 0; a < 3; ++a) {
+      for (const double face : {placed.box.lo[a], placed.box.hi[a]}) {
+        if (std::abs(p[a] - face) < near && std::abs(q[a] - face) < near) return a;
+      }
+    }
+    return std::nullopt;
   }
 
   const SurfaceOctree& tree_;

@@ -147,7 +147,7 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   const auto made = contour_field(*cover, plan, result.report, run);
   if (!made) return std::nullopt;
   ProgressMeter progress(run, "joining polygons");
-  auto built = build_polygons(made->tree, *cover, made->contour, made->positions, run);
+  auto built = build_polygons(made->tree, *cover, made->contour, made->positions, plan.tolerance, run);
   if (!built) return std::nullopt;
   progress.add(0.7);
   result.mesh = std::move(built->mesh);

@@ -51,6 +51,20 @@ bool bends(const Contour& contour, std::uint32_t edge) {
   return false;
 }
 
+/// Between corners whose normals differ too much for that, none of them on a crease: an eighth of length times angle, the arrow of an
+/// arc, metres. 0 where there are none.
+float across_a_bend(const Ring& ring, const Contour& contour, const std::vector<Vec3>& positions) {
+  double most = 0;
+  for (int k = 0; k < ring.count; ++k) {
+    const std::uint32_t p = ring.patches[k], q = ring.patches[(k + 1) % ring.count];
+    const PatchVertex &a = contour.vertices[p], &b = contour.vertices[q];
+    const double cosine = static_cast<double>(glm::dot(a.normal, b.normal));
+    if (a.crease || b.crease || cosine >= 0.5) continue;
+    most = std::max(most, std::acos(std::max(cosine, -1.0)) * glm::length(positions[p] - positions[q]) / 8);
+  }
+  return static_cast<float>(most);
+}
+
 class Marks {
  public:
   explicit Marks(std::size_t n) : marked_(n, 0) {}
@@ -123,10 +137,17 @@ void VertexBalance::update(const SurfaceOctree& tree, const Contour& contour, co
   for_each(changed_edges_, [&](std::uint32_t e) {
     const Ring ring = ring_of(contour.edges[e], contour.patch_of_quadrant[e]);
     const auto& v = ring.patches;
-    float error = std::abs(height(e, positions_));
+    const PolygonFit fit = polygon_fit(ring, positions_, crossing_point(tree, contour, e), contour.edges[e].axis);
+    // Of a polygon that its edge misses only the plane is known, and it may be off by a part of its size more.
+    float error = std::abs(height(e, positions_)) + 0.1f * static_cast<float>(glm::length(positions_[v[0]] - positions_[v[2 % ring.count]]));
+    if (ring.count == 4) {
+      error = std::min({error, std::max(static_cast<float>(fit.error[0]), off_between(v[0], v[2])),
+                        std::max(static_cast<float>(fit.error[1]), off_between(v[1], v[3]))});
+    } else {
+      error = std::min(error, static_cast<float>(fit.error[0]));
+    }
     for (int k = 0; k < ring.count; ++k) error = std::max(error, off_between(v[k], v[(k + 1) % ring.count]));
-    if (ring.count == 4) error = std::max(error, std::min(off_between(v[0], v[2]), off_between(v[1], v[3])));
-    errors_[e] = error;
+    errors_[e] = std::max(error, across_a_bend(ring, contour, positions_));
   });
 }
 
