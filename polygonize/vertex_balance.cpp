@@ -13,6 +13,7 @@ namespace cambium {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
+constexpr float kSharpCare = 1.6f;   // where the surface turns, it may be farther off elsewhere than where that is measured
 
 /// How far outside of a polygon's mean plane the surface is where it crosses the polygon's edge, metres. Of a polygon that is folded
 /// flat, the distance to the nearest corner.
@@ -47,6 +48,15 @@ bool bends(const Contour& contour, std::uint32_t edge) {
   for (const std::uint32_t patch : contour.patch_of_quadrant[edge]) {
     const PatchVertex& vertex = contour.vertices[patch];
     if (!vertex.crease && glm::dot(vertex.normal, contour.crossings[edge].normal) < kBent) return true;
+  }
+  return false;
+}
+
+/// Whether the surface turns by more than 60 degrees from a corner to the next.
+bool is_sharp(const Ring& ring, const Contour& contour) {
+  for (int k = 0; k < ring.count; ++k) {
+    const std::uint32_t p = ring.patches[k], q = ring.patches[(k + 1) % ring.count];
+    if (glm::dot(contour.vertices[p].normal, contour.vertices[q].normal) < 0.5f) return true;
   }
   return false;
 }
@@ -147,6 +157,7 @@ void VertexBalance::update(const SurfaceOctree& tree, const Contour& contour, co
       error = std::min(error, static_cast<float>(fit.error[0]));
     }
     for (int k = 0; k < ring.count; ++k) error = std::max(error, off_between(v[k], v[(k + 1) % ring.count]));
+    if (is_sharp(ring, contour)) error *= kSharpCare;
     errors_[e] = std::max(error, across_a_bend(ring, contour, positions_));
   });
 }

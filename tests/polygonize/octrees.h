@@ -83,7 +83,7 @@ inline std::vector<Vec3> positions_of(const Contour& contour) {
 }
 
 inline DualMesh polygons_on(const OnOctree& on, const Contour& contour) {
-  return build_polygons(on.tree, on.cover, contour, positions_of(contour), {}).value();
+  return build_polygons(on.tree, on.cover, contour, positions_of(contour), kInfinity, {}).value();
 }
 
 /// The low end of a minimal edge, in units.
