@@ -169,6 +169,7 @@ class VertexPlacer {
     if (sides_.size() <= kMostSides) {
       if (auto found = find_crease(choices_, field, sides_, middle, within)) return found;
     }
+    if (sides_.size() > 2) return std::nullopt;   // a corner is not on the chord
     entries.position = middle;
     entries.kind = CreaseKind::kCurve;
     return entries;
