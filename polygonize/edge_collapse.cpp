@@ -1,10 +1,16 @@
 #include "polygonize/edge_collapse.h"
 
 #include "blobtree/input_error.h"
+#include "polygonize/crossing_guard.h"
+#include "polygonize/vertex_heap.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <OpenMesh/Core/Geometry/QuadricT.hh>   // needs what that includes
+#include <OpenMesh/Tools/Decimater/CollapseInfoT.hh>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -14,29 +20,18 @@
 namespace cambium {
 namespace {
 
+using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
-
-// The decimater asks its mesh whether an edge may be collapsed: before it asks what that costs, and once more when its turn has
-// come. OpenMesh's own answer makes and names a property each time, which takes longer than all the rest together.
-class Halfedges : public OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble> {
- public:
-  class Judge {
-   public:
-    virtual ~Judge() = default;
-    virtual bool allows(HalfedgeHandle h) = 0;
-  };
-  void ask(Judge* judge) { judge_ = judge; }
-  bool is_collapse_ok(HalfedgeHandle h) { return judge_->allows(h); }
-
- private:
-  Judge* judge_ = nullptr;
-};
+using Halfedges = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
+using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<Halfedges>;
+using Quadric = OpenMesh::Geometry::Quadricd;
 using Point = Halfedges::Point;
 
 struct Cancelled {};
 
-constexpr std::size_t kPollEvery = 1 << 12;         // collapses looked at, or faces added: about a millisecond
+constexpr std::size_t kPollEvery = 1 << 12;         // faces added: about a millisecond
+constexpr std::size_t kPollCollapses = 1 << 10;
 constexpr double kLengthWeight = 1e-6;              // where quadrics say nothing, short edges go first
 constexpr int kMostSpokes = 64;                     // of a vertex that may go
 
@@ -58,78 +53,134 @@ double height_of(const Point& a, const Point& b, const Point& c) {
   return ((b - a) % (c - a)).norm() / std::max({(b - a).sqrnorm(), (c - b).sqrnorm(), (a - c).sqrnorm()});
 }
 
-// Quadric errors of the collapses that the rule allows.
-class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>, public Halfedges::Judge {
+VertexHandle vertex(std::uint32_t v) { return VertexHandle(static_cast<int>(v)); }
+std::uint32_t number(OpenMesh::BaseHandle handle) { return static_cast<std::uint32_t>(handle.idx()); }
+
+// Vertices leave in the order of what that costs, as quadrics put it; that is known from a few numbers for every edge. Whether the
+// edge may be collapsed is only asked when its turn has come, since that takes longer and is mostly so.
+class Collapser {
  public:
-  using Self = GuardedQuadrics;
-  using Handle = OpenMesh::Decimater::ModHandleT<Self>;
-  using Quadrics = OpenMesh::Decimater::ModQuadricT<Halfedges>;
-
-  explicit GuardedQuadrics(Halfedges& mesh) : Quadrics(mesh) {}
-
-  void prepare(const std::vector<glm::vec3>& normals, const RunOptions& run, std::vector<std::uint32_t>& into) {
-    normals_ = &normals;
-    run_ = &run;
-    into_ = &into;
-    ring_.assign(into.size(), 0);
+  Collapser(const Mesh& mesh, Halfedges& halfedges, const RunOptions& run)
+      : halfedges_(halfedges), normals_(mesh.normals), run_(run), crossings_(mesh.positions, mesh.triangles),
+        quadrics_(mesh.positions.size()), own_(mesh.positions.size()), targets_(mesh.positions.size()),
+        stamps_(mesh.positions.size(), 0), left_(mesh.triangles.size()), first_(mesh.triangles.size()) {
+    parallel_vertices([&](std::uint32_t v) {
+      quadrics_[v].clear();
+      for (const auto f : halfedges_.vf_range(vertex(v))) quadrics_[v] += quadric_of(f);
+      set_own(v);
+    });
   }
-  void set_rule(const ShapeRule& rule) {
+
+  std::size_t left() const { return left_; }
+
+  /// Until at most so many triangles are left or the rule allows no collapse.
+  void collapse_to(std::size_t triangles, const ShapeRule& rule) {
     rule_ = &rule;
-    candidate_ = VertexHandle();
-  }
-
-  // The edges around a vertex come one after the other, and the best is taken: one that is worse need not be looked at.
-  bool allows(HalfedgeHandle h) override {
-    if (++looked_at_ % kPollEvery == 0 && run_->cancelled()) throw Cancelled{};
-    if (mesh().status(mesh().edge_handle(h)).deleted()) return false;
-    const CollapseInfo ci(mesh(), h);
-    if (mesh().status(ci.v0).deleted() || mesh().status(ci.v1).deleted()) return false;
-    if (ci.v0 != candidate_) begin_candidate(ci.v0);
-    const double length2 = (ci.p1 - ci.p0).sqrnorm();
-    const float error = std::max(Quadrics::collapse_priority(ci), 0.0f) + static_cast<float>(kLengthWeight * length2 * length2);
-    if (!(error <= best_) || !keeps_topology(ci) || !keeps_creases(ci) || !keeps_shape(ci)) return false;
-    best_ = error;
-    return true;
-  }
-
-  float collapse_priority(const CollapseInfo&) override { return best_; }   // always after allows()
-
-  void preprocess_collapse(const CollapseInfo& ci) override {
-    crease_left_ = crease(ci.vlv1) || crease(ci.v0vl);
-    crease_right_ = crease(ci.v1vr) || crease(ci.vrv0);
-    (*into_)[ci.v0.idx()] = static_cast<std::uint32_t>(ci.v1.idx());
-  }
-
-  // Two edges have become one on either side, and OpenMesh keeps the status of one of them.
-  void postprocess_collapse(const CollapseInfo& ci) override {
-    Quadrics::postprocess_collapse(ci);
-    mark(ci.v1, ci.vl, crease_left_);
-    mark(ci.v1, ci.vr, crease_right_);
-    candidate_ = VertexHandle();
+    std::vector<float> costs(targets_.size());
+    parallel_vertices([&](std::uint32_t v) { costs[v] = aim(v); });
+    VertexHeap waiting(std::move(costs));
+    for (std::size_t turn = 0; left_ > triangles && !waiting.empty(); ++turn) {
+      if (turn % kPollCollapses == 0) report(triangles);
+      const std::uint32_t v = waiting.front();
+      const HalfedgeHandle h = targets_[v];
+      waiting.pop();
+      if (allows(h)) {
+        collapse(h, waiting);
+        continue;
+      }
+      const auto [next, cost] = best_allowed(vertex(v));
+      targets_[v] = next;
+      if (cost <= waiting.least() && next.is_valid()) {
+        collapse(next, waiting);
+      } else {
+        waiting.set(v, cost);
+      }
+    }
   }
 
  private:
-  bool crease(HalfedgeHandle h) const { return mesh().status(mesh().edge_handle(h)).feature(); }
+  template <class Do>
+  void parallel_vertices(Do&& act) const {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, targets_.size(), 1024), [&](const auto& range) {
+      for (std::size_t v = range.begin(); v < range.end() && !run_.cancelled(); ++v) act(static_cast<std::uint32_t>(v));
+    });
+    if (run_.cancelled()) throw Cancelled{};
+  }
+  void report(std::size_t triangles) const {
+    if (run_.cancelled()) throw Cancelled{};
+    if (run_.progress) run_.progress("decimating", static_cast<double>(first_ - left_) / static_cast<double>(first_ - triangles));
+  }
+
+  bool crease(HalfedgeHandle h) const { return halfedges_.status(halfedges_.edge_handle(h)).feature(); }
   void mark(VertexHandle a, VertexHandle b, bool is_crease) {
-    mesh().status(mesh().edge_handle(mesh().find_halfedge(a, b))).set_feature(is_crease);
-  }
-  const Halfedges& mesh() const { return const_cast<GuardedQuadrics*>(this)->Quadrics::mesh(); }
-  Halfedges& mesh() { return Quadrics::mesh(); }
-
-  void begin_candidate(VertexHandle v) {
-    candidate_ = v;
-    best_ = std::numeric_limits<float>::max();
-    ++stamp_;
-    for (const auto neighbour : mesh().vv_range(v)) ring_[static_cast<std::size_t>(neighbour.idx())] = stamp_;
+    halfedges_.status(halfedges_.edge_handle(halfedges_.find_halfedge(a, b))).set_feature(is_crease);
   }
 
-  // The link condition of a closed surface: the two ends have no neighbours in common but the corners of the two triangles.
+  // Of the plane of a face, times its area.
+  Quadric quadric_of(FaceHandle f) const {
+    auto corner = halfedges_.cfv_iter(f);
+    const Point a = halfedges_.point(*corner++), b = halfedges_.point(*corner++), c = halfedges_.point(*corner);
+    Point n = (b - a) % (c - a);
+    const double length = n.norm();
+    if (length > 0) n /= length;
+    Quadric q(n[0], n[1], n[2], -(a | n));
+    q *= 0.5 * length;
+    return q;
+  }
+  void set_own(std::uint32_t v) { own_[v] = quadrics_[v](halfedges_.point(vertex(v))); }
+  float cost(std::uint32_t v, HalfedgeHandle h) const {
+    const VertexHandle to = halfedges_.to_vertex_handle(h);
+    const Point& p = halfedges_.point(to);
+    const double length2 = (p - halfedges_.point(vertex(v))).sqrnorm();
+    return static_cast<float>(std::max(quadrics_[v](p) + own_[number(to)], 0.0) + kLengthWeight * length2 * length2);
+  }
+
+  // The cheapest way to go, allowed or not, becomes v's target.
+  float aim(std::uint32_t v) {
+    targets_[v] = HalfedgeHandle();
+    float best = VertexHeap::kNever;
+    const auto& status = halfedges_.status(vertex(v));
+    if (status.deleted() || status.locked()) return best;
+    for (const HalfedgeHandle h : halfedges_.voh_range(vertex(v))) {
+      if (status.feature() && !crease(h)) continue;
+      const float c = cost(v, h);
+      if (c < best) best = c, targets_[v] = h;
+    }
+    return best;
+  }
+
+  std::pair<HalfedgeHandle, float> best_allowed(VertexHandle v) {
+    std::array<std::pair<float, HalfedgeHandle>, kMostSpokes> ways;
+    std::size_t count = 0;
+    const bool on_crease = halfedges_.status(v).feature();
+    for (const HalfedgeHandle h : halfedges_.voh_range(v)) {
+      if (on_crease && !crease(h)) continue;
+      if (count == ways.size()) break;
+      ways[count++] = {cost(number(v), h), h};
+    }
+    std::stable_sort(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(count),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t i = 0; i < count; ++i)
+      if (ways[i].second != targets_[number(v)] && allows(ways[i].second)) return {ways[i].second, ways[i].first};
+    return {HalfedgeHandle(), VertexHeap::kNever};
+  }
+
+  bool allows(HalfedgeHandle h) {
+    const CollapseInfo ci(halfedges_, h);
+    return keeps_topology(ci) && keeps_creases(ci) && keeps_shape(ci) && !crosses(ci);
+  }
+
+  // The link condition of a closed surface: the two ends have no neighbours in common but the corners of the two triangles. What
+  // is left may not be two triangles back to back.
   bool keeps_topology(const CollapseInfo& ci) {
     if (ci.vl == ci.vr) return false;
-    for (const auto v : mesh().vv_range(ci.v1)) {
-      if (ring_[static_cast<std::size_t>(v.idx())] == stamp_ && v != ci.vl && v != ci.vr) return false;
-    }
-    return true;
+    ++stamp_;
+    std::size_t spokes = 0;
+    for (const auto v : halfedges_.vv_range(ci.v0)) stamps_[number(v)] = stamp_, ++spokes;
+    if (spokes < 3 || spokes > kMostSpokes) return false;
+    for (const auto v : halfedges_.vv_range(ci.v1))
+      if (stamps_[number(v)] == stamp_ && v != ci.vl && v != ci.vr) return false;
+    return !(halfedges_.valence(ci.vl) == 3 && halfedges_.valence(ci.vr) == 3 && halfedges_.find_halfedge(ci.vl, ci.vr).is_valid());
   }
 
   // A crease that runs around one triangle may not close up.
@@ -138,13 +189,13 @@ class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>
   }
 
   double facing(const Point& normal, VertexHandle v) const {
-    const glm::vec3& n = (*normals_)[static_cast<std::size_t>(v.idx())];
+    const glm::vec3& n = normals_[number(v)];
     return normal[0] * n.x + normal[1] * n.y + normal[2] * n.z;
   }
 
   // Walks the triangles around v0 from the edge to v1 and back to it, and looks at each as it would be with v1 in v0's place.
   bool keeps_shape(const CollapseInfo& ci) const {
-    const Halfedges& m = mesh();
+    const Halfedges& m = halfedges_;
     struct Spoke {
       Point before, after;       // normals of the triangle
       Point beyond;              // of the one across its outer edge
@@ -168,7 +219,7 @@ class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>
       normal.normalize();
       if ((normal | s.before) < rule_->turn) return false;
       s.after = normal;
-      if (rule_->facing > -1 && !normals_->empty()) {
+      if (rule_->facing > -1 && !normals_.empty()) {
         s.facing_after = std::min({facing(normal, a), facing(normal, b), facing(normal, ci.v1)});
         s.facing_before = std::min({facing(s.before, a), facing(s.before, b), facing(s.before, ci.v0)});
         if (s.facing_after < std::min(rule_->facing, s.facing_before)) return false;
@@ -195,31 +246,58 @@ class GuardedQuadrics final : public OpenMesh::Decimater::ModQuadricT<Halfedges>
     return after >= std::min(rule_->across, before);
   }
 
-  const std::vector<glm::vec3>* normals_ = nullptr;
-  const RunOptions* run_ = nullptr;
-  std::vector<std::uint32_t>* into_ = nullptr;
-  const ShapeRule* rule_ = nullptr;
-  std::size_t looked_at_ = 0;
-  VertexHandle candidate_;                 // whose edges are being looked at,
-  float best_ = 0;                         // the least error of them so far,
-  std::vector<std::uint32_t> ring_;        // and by vertex: stamp_ if it is a neighbour of it
-  std::uint32_t stamp_ = 0;
-  bool crease_left_ = false, crease_right_ = false;
-};
-
-
-// Stops the decimater when asked to, and says how far it is.
-class Watch final : public OpenMesh::Decimater::Observer {
- public:
-  Watch(const RunOptions& run, std::size_t collapses) : Observer(kPollEvery / 8), run_(run), collapses_(collapses) {}
-  void notify(std::size_t step) override {
-    if (run_.cancelled()) throw Cancelled{};
-    if (run_.progress) run_.progress("decimating", std::min(1.0, static_cast<double>(step) / static_cast<double>(collapses_)));
+  bool crosses(const CollapseInfo& ci) {
+    star_.clear();
+    fan_.clear();
+    for (const HalfedgeHandle spoke : halfedges_.voh_range(ci.v0)) {
+      const FaceHandle face = halfedges_.face_handle(spoke);
+      star_.push_back(number(face));
+      if (face == ci.fl || face == ci.fr) continue;
+      const HalfedgeHandle outer = halfedges_.next_halfedge_handle(spoke);
+      fan_.push_back({number(ci.v1), number(halfedges_.from_vertex_handle(outer)), number(halfedges_.to_vertex_handle(outer))});
+    }
+    return crossings_.crosses(star_, fan_);
   }
 
- private:
+  // After allows(h), which left star_ and fan_.
+  void collapse(HalfedgeHandle h, VertexHeap& waiting) {
+    const CollapseInfo ci(halfedges_, h);
+    // Two edges become one on either side, and OpenMesh keeps the status of one of them.
+    const bool crease_left = crease(ci.vlv1) || crease(ci.v0vl), crease_right = crease(ci.v1vr) || crease(ci.vrv0);
+    ring_.clear();
+    for (const auto v : halfedges_.vv_range(ci.v0)) ring_.push_back(number(v));
+    halfedges_.collapse(h);
+    mark(ci.v1, ci.vl, crease_left);
+    mark(ci.v1, ci.vr, crease_right);
+    std::size_t next = 0;
+    for (const std::uint32_t i : star_) {
+      const FaceHandle face(static_cast<int>(i));
+      if (face == ci.fl || face == ci.fr) continue;
+      halfedges_.set_normal(face, halfedges_.calc_face_normal(face));
+      crossings_.change(i, fan_[next++]);
+    }
+    crossings_.remove(number(ci.fl));
+    crossings_.remove(number(ci.fr));
+    left_ -= 2;
+    quadrics_[number(ci.v1)] += quadrics_[number(ci.v0)];
+    set_own(number(ci.v1));
+    for (const std::uint32_t v : ring_) waiting.set(v, aim(v));
+  }
+
+  Halfedges& halfedges_;
+  const std::vector<glm::vec3>& normals_;
   const RunOptions& run_;
-  std::size_t collapses_;
+  CrossingGuard crossings_;
+  const ShapeRule* rule_ = nullptr;
+  // By vertex:
+  std::vector<Quadric> quadrics_;
+  std::vector<double> own_;                // its quadric where it is
+  std::vector<HalfedgeHandle> targets_;
+  std::vector<std::uint32_t> stamps_;      // stamp_ if it is a neighbour of what is being looked at
+  std::uint32_t stamp_ = 0;
+  std::size_t left_, first_;               // triangles
+  std::vector<std::uint32_t> star_, ring_;
+  std::vector<CrossingGuard::Corners> fan_;
 };
 
 // Positions are relative to the middle of the mesh: quadrics lose half their digits far from the origin.
@@ -229,7 +307,6 @@ void build_halfedges(const Mesh& mesh, Halfedges& out, const RunOptions& run) {
   const Vec3 middle = mesh.positions.empty() ? Vec3(0.0) : 0.5 * (bounds.lo + bounds.hi);
   out.reserve(mesh.positions.size(), mesh.triangles.size() * 3 / 2, mesh.triangles.size());
   for (const Vec3& p : mesh.positions) out.add_vertex(Point(p.x - middle.x, p.y - middle.y, p.z - middle.z));
-  const auto vertex = [](std::uint32_t v) { return VertexHandle(static_cast<int>(v)); };
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (i % kPollEvery == 0 && run.cancelled()) throw Cancelled{};
     const auto& t = mesh.triangles[i];
@@ -241,97 +318,82 @@ void build_halfedges(const Mesh& mesh, Halfedges& out, const RunOptions& run) {
 }
 
 // Crease edges, the vertices that they pass through, and those where they end or meet, which stay.
-void mark_creases(const Mesh& mesh, const std::vector<bool>& locked, Halfedges& out) {
+void mark_creases(const Mesh& mesh, Halfedges& out) {
   std::vector<std::uint8_t> creases(mesh.positions.size(), 0);
   for (const auto& edge : mesh.creases) {
-    const HalfedgeHandle h = out.find_halfedge(VertexHandle(static_cast<int>(edge[0])), VertexHandle(static_cast<int>(edge[1])));
+    const HalfedgeHandle h = out.find_halfedge(vertex(edge[0]), vertex(edge[1]));
     if (!h.is_valid()) continue;
     out.status(out.edge_handle(h)).set_feature(true);
     for (const std::uint32_t v : edge) creases[v] = static_cast<std::uint8_t>(std::min(creases[v] + 1, 3));
   }
-  for (std::size_t v = 0; v < creases.size(); ++v) {
-    auto& status = out.status(VertexHandle(static_cast<int>(v)));
-    status.set_feature(creases[v] > 0);
-    status.set_locked(locked[v] || (creases[v] > 0 && creases[v] != 2));
+  for (std::uint32_t v = 0; v < creases.size(); ++v) {
+    out.status(vertex(v)).set_feature(creases[v] > 0);
+    out.status(vertex(v)).set_locked(creases[v] > 0 && creases[v] != 2);
   }
 }
 
-void give_up_creases(const std::vector<bool>& locked, Halfedges& out) {
+void give_up_creases(Halfedges& out) {
   for (const auto v : out.vertices()) {
     out.status(v).set_feature(false);
-    out.status(v).set_locked(locked[static_cast<std::size_t>(v.idx())]);
+    out.status(v).set_locked(false);
   }
 }
 
-Collapsed take_mesh(const Mesh& mesh, const Halfedges& halfedges, const std::vector<std::uint32_t>& into) {
-  Collapsed result;
+Mesh take_mesh(const Mesh& mesh, const Halfedges& halfedges) {
+  Mesh result;
   constexpr std::uint32_t kGone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> place(mesh.positions.size(), kGone);
   for (std::uint32_t v = 0; v < place.size(); ++v) {
-    const VertexHandle handle(static_cast<int>(v));
+    const VertexHandle handle = vertex(v);
     if (halfedges.status(handle).deleted() || halfedges.is_isolated(handle)) continue;
-    place[v] = static_cast<std::uint32_t>(result.source.size());
-    result.source.push_back(v);
-    result.mesh.positions.push_back(mesh.positions[v]);
-    if (!mesh.normals.empty()) result.mesh.normals.push_back(mesh.normals[v]);
-    if (!mesh.colors.empty()) result.mesh.colors.push_back(mesh.colors[v]);
+    place[v] = static_cast<std::uint32_t>(result.positions.size());
+    result.positions.push_back(mesh.positions[v]);
+    if (!mesh.normals.empty()) result.normals.push_back(mesh.normals[v]);
+    if (!mesh.colors.empty()) result.colors.push_back(mesh.colors[v]);
   }
   for (const auto f : halfedges.faces()) {   // leaves out the deleted ones
     std::array<std::uint32_t, 3> t{};
     int corner = 0;
-    for (const auto v : halfedges.fv_range(f)) t[static_cast<std::size_t>(corner++)] = place[static_cast<std::size_t>(v.idx())];
-    result.mesh.triangles.push_back(t);
+    for (const auto v : halfedges.fv_range(f)) t[static_cast<std::size_t>(corner++)] = place[number(v)];
+    result.triangles.push_back(t);
   }
   for (const auto e : halfedges.edges()) {
     if (!halfedges.status(e).feature()) continue;
     const HalfedgeHandle h = halfedges.halfedge_handle(e, 0);
-    const auto [low, high] = std::minmax(place[static_cast<std::size_t>(halfedges.from_vertex_handle(h).idx())],
-                                         place[static_cast<std::size_t>(halfedges.to_vertex_handle(h).idx())]);
-    result.mesh.creases.push_back({low, high});
+    const auto [low, high] = std::minmax({place[number(halfedges.from_vertex_handle(h))],
+                                         place[number(halfedges.to_vertex_handle(h))]});
+    result.creases.push_back({low, high});
   }
-  std::sort(result.mesh.creases.begin(), result.mesh.creases.end());
-  result.survivor.resize(place.size());
-  for (std::uint32_t v = 0; v < place.size(); ++v) {
-    std::uint32_t at = v;
-    while (into[at] != at) at = into[at];
-    result.survivor[v] = place[at];
-  }
+  std::sort(result.creases.begin(), result.creases.end());
   return result;
 }
 
 }  // namespace
 
-std::optional<Collapsed> collapse_edges(const Mesh& mesh, std::size_t triangles, const std::vector<bool>& locked,
-                                        const RunOptions& run) {
-  try {
-    Halfedges halfedges;
-    build_halfedges(mesh, halfedges, run);
-    halfedges.request_face_normals();
-    halfedges.update_face_normals();
-    std::vector<std::uint32_t> into(mesh.positions.size());
-    for (std::uint32_t v = 0; v < into.size(); ++v) into[v] = v;
-    OpenMesh::Decimater::DecimaterT<Halfedges> decimater(halfedges);
-    GuardedQuadrics::Handle quadrics;
-    decimater.add(quadrics);
-    decimater.module(quadrics).prepare(mesh.normals, run, into);
-    decimater.initialize();
-    halfedges.ask(&decimater.module(quadrics));
-    mark_creases(mesh, locked, halfedges);
-    Watch watch(run, (mesh.triangles.size() - std::min(triangles, mesh.triangles.size())) / 2 + 1);
-    decimater.set_observer(&watch);
-    std::size_t left = mesh.triangles.size();
-    for (const ShapeRule& rule : kRules) {
-      if (left <= triangles) break;
-      if (!rule.creases) give_up_creases(locked, halfedges);
-      decimater.module(quadrics).set_rule(rule);
-      // The decimater stops at either number, and counts deleted ones among those that it begins with.
-      left -= 2 * decimater.decimate((left - triangles + 1) / 2);
-      if (run.cancelled()) return std::nullopt;
+std::optional<Mesh> collapse_edges(const Mesh& mesh, std::size_t triangles, const RunOptions& run) {
+  tbb::task_arena arena(run.threads > 0 ? run.threads : tbb::task_arena::automatic);
+  return arena.execute([&]() -> std::optional<Mesh> {
+    try {
+      Halfedges halfedges;
+      halfedges.request_vertex_status();
+      halfedges.request_edge_status();
+      halfedges.request_halfedge_status();
+      halfedges.request_face_status();
+      build_halfedges(mesh, halfedges, run);
+      halfedges.request_face_normals();
+      halfedges.update_face_normals();
+      mark_creases(mesh, halfedges);
+      Collapser collapser(mesh, halfedges, run);
+      for (const ShapeRule& rule : kRules) {
+        if (collapser.left() <= triangles) break;
+        if (!rule.creases) give_up_creases(halfedges);
+        collapser.collapse_to(triangles, rule);
+      }
+      return take_mesh(mesh, halfedges);
+    } catch (const Cancelled&) {
+      return std::nullopt;
     }
-    return take_mesh(mesh, halfedges, into);
-  } catch (const Cancelled&) {
-    return std::nullopt;
-  }
+  });
 }
 
 }  // namespace cambium

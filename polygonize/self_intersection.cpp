@@ -11,35 +11,6 @@
 #include <algorithm>
 
 namespace cambium {
-namespace {
-
-using Corners = std::array<std::uint32_t, 3>;
-
-bool wrongly_meet(const Mesh& mesh, const Corners& s, const Corners& t) {
-  const auto place = [&](const Corners& c, std::size_t first) {   // turned so that corner `first` leads
-    return TriangleCorners{mesh.positions[c[first]], mesh.positions[c[(first + 1) % 3]], mesh.positions[c[(first + 2) % 3]]};
-  };
-  std::size_t shared = 0, at_s = 0, at_t = 0;
-  std::array<bool, 3> in_t{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      if (s[i] != t[j]) continue;
-      ++shared;
-      in_t[i] = true;
-      at_s = i, at_t = j;
-    }
-  }
-  if (shared == 0) return triangles_meet(place(s, 0), place(t, 0));
-  if (shared == 1) return triangles_meet_beyond_corner(place(s, at_s), place(t, at_t));
-  if (shared > 2) return true;   // the same triangle twice, or one with a corner twice
-  const std::size_t far_s = !in_t[0] ? 0 : !in_t[1] ? 1 : 2;
-  const std::uint32_t u = s[(far_s + 1) % 3], v = s[(far_s + 2) % 3];
-  const std::size_t far_t = t[0] != u && t[0] != v ? 0 : t[1] != u && t[1] != v ? 1 : 2;
-  return triangles_meet_beyond_edge({mesh.positions[u], mesh.positions[v], mesh.positions[s[far_s]]},
-                                    {mesh.positions[u], mesh.positions[v], mesh.positions[t[far_t]]});
-}
-
-}  // namespace
 
 std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections(const Mesh& mesh, const RunOptions& run) {
   using Pairs = std::vector<std::array<std::uint32_t, 2>>;
@@ -57,7 +28,8 @@ std::optional<std::vector<std::array<std::uint32_t, 2>>> self_intersections(cons
       Pairs& mine = found.local();
       for (std::size_t leaf = range.begin(); leaf < range.end() && !run.cancelled(); ++leaf) {
         tree.overlaps(leaf, [&](std::uint32_t i, std::uint32_t j) {
-          if (wrongly_meet(mesh, mesh.triangles[i], mesh.triangles[j])) mine.push_back({std::min(i, j), std::max(i, j)});
+          if (triangles_meet_wrongly(mesh.positions, mesh.triangles[i], mesh.triangles[j]))
+            mine.push_back({std::min(i, j), std::max(i, j)});
         });
       }
     });

@@ -138,4 +138,29 @@ bool triangles_meet_beyond_edge(const TriangleCorners& s, const TriangleCorners&
   return same_side;
 }
 
+bool triangles_meet_wrongly(const std::vector<Vec3>& positions, const std::array<std::uint32_t, 3>& s,
+                            const std::array<std::uint32_t, 3>& t) {
+  const auto place = [&](const std::array<std::uint32_t, 3>& c, std::size_t first) {   // turned so that corner `first` leads
+    return TriangleCorners{positions[c[first]], positions[c[(first + 1) % 3]], positions[c[(first + 2) % 3]]};
+  };
+  std::size_t shared = 0, at_s = 0, at_t = 0;
+  std::array<bool, 3> in_t{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (s[i] != t[j]) continue;
+      ++shared;
+      in_t[i] = true;
+      at_s = i, at_t = j;
+    }
+  }
+  if (shared == 0) return triangles_meet(place(s, 0), place(t, 0));
+  if (shared == 1) return triangles_meet_beyond_corner(place(s, at_s), place(t, at_t));
+  if (shared > 2) return true;   // the same triangle twice, or one with a corner twice
+  const std::size_t far_s = !in_t[0] ? 0 : !in_t[1] ? 1 : 2;
+  const std::uint32_t u = s[(far_s + 1) % 3], v = s[(far_s + 2) % 3];
+  const std::size_t far_t = t[0] != u && t[0] != v ? 0 : t[1] != u && t[1] != v ? 1 : 2;
+  return triangles_meet_beyond_edge({positions[u], positions[v], positions[s[far_s]]},
+                                    {positions[u], positions[v], positions[t[far_t]]});
+}
+
 }  // namespace cambium

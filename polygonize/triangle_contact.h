@@ -4,6 +4,8 @@
 #include "blobtree/geometry.h"
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
 namespace cambium {
 
@@ -15,5 +17,8 @@ bool triangles_meet(const TriangleCorners& s, const TriangleCorners& t);
 bool triangles_meet_beyond_corner(const TriangleCorners& s, const TriangleCorners& t);
 /// s[0], s[1] and t[0], t[1] are one edge: they have a point beyond it in common, that is, lie folded onto each other.
 bool triangles_meet_beyond_edge(const TriangleCorners& s, const TriangleCorners& t);
+/// Triangles by the numbers of their corners: they meet anywhere but in the corner or the edge that they share.
+bool triangles_meet_wrongly(const std::vector<Vec3>& positions, const std::array<std::uint32_t, 3>& s,
+                            const std::array<std::uint32_t, 3>& t);
 
 }  // namespace cambium

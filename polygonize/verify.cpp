@@ -12,7 +12,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace cambium {
 namespace {
@@ -81,33 +83,71 @@ DistanceFigures figures_of(const std::vector<Group>& groups, double tolerance) {
   return figures;
 }
 
-// From p, on the surface, straight out: back in the wood before `width`.
-bool in_crack(const Field& field, const Vec3& p, double width) {
-  const Vec3 gradient = field.sample(p).gradient;
-  const double slope = glm::length(gradient);
-  if (!(slope > 0)) return false;
-  constexpr int kSteps = 32;
-  for (int i = 1; i <= kSteps; ++i) {
-    const Vec3 q = p - (width * i / kSteps / slope) * gradient;
-    if (field.value(q) >= kIso) return true;
+// Whether points lie in cracks: straight out from them, the wood is back before `width`.
+class CrackProbe {
+ public:
+  CrackProbe(const Field& field, double width) : field_(field), width_(width) {}
+
+  /// Of neighbouring points on the surface: they share a pruned field, and the way out is one batch.
+  std::vector<bool> in_cracks(std::span<const Vec3> points) {
+    std::vector<bool> result(points.size(), false);
+    if (points.empty()) return result;
+    Box box;
+    for (const Vec3& p : points) box.extend(p);
+    const PrunedField near = field_.prune(box.padded(1.01 * width_));
+    for (std::size_t i = 0; i < points.size(); ++i) result[i] = in_crack(near, points[i]);
+    return result;
   }
-  return false;
-}
+
+ private:
+  static constexpr std::size_t kSteps = 32;
+  using Row = std::array<float, kSteps>;
+
+  bool in_crack(const PrunedField& near, const Vec3& p) {
+    const Vec3 gradient = evaluator_.sample(near, p).gradient;
+    const double slope = glm::length(gradient);
+    if (!(slope > 0)) return false;
+    Row x, y, z, f;
+    for (std::size_t i = 0; i < kSteps; ++i) {
+      const Vec3 q = p - (width_ * static_cast<double>(i + 1) / kSteps / slope) * gradient - near.origin();
+      x[i] = static_cast<float>(q.x);
+      y[i] = static_cast<float>(q.y);
+      z[i] = static_cast<float>(q.z);
+    }
+    evaluator_.values(near, x, y, z, f);
+    return std::any_of(f.begin(), f.end(), [](float value) { return value >= static_cast<float>(kIso); });
+  }
+
+  const Field& field_;
+  double width_;
+  Evaluator evaluator_;
+};
 
 bool measure_surface_to_mesh(const Field& field, const SurfaceSamples& samples, const MeshDistance& mesh, double tolerance,
                              const RunOptions& run, Verification& result) {
   constexpr std::size_t kGroup = 256;
   std::vector<Group> groups((samples.points.size() + kGroup - 1) / kGroup), open(groups.size());
   ProgressMeter progress(run, "measuring from the surface");
+  tbb::enumerable_thread_specific<CrackProbe> probes([&] { return CrackProbe(field, tolerance); });
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+    const std::size_t begin = g * kGroup, end = std::min(samples.points.size(), begin + kGroup);
+    std::vector<Vec3> beyond;
     double last = kInfinity;
-    for (std::size_t i = g * kGroup; i < std::min(samples.points.size(), (g + 1) * kGroup) && !run.cancelled(); ++i) {
+    for (std::size_t i = begin; i < end && !run.cancelled(); ++i) {
       const Vec3& p = samples.points[i];
       // The last sample is near by, and its triangle not farther than it and the way between them.
-      const double hint = i > g * kGroup ? last + glm::length(p - samples.points[i - 1]) : kInfinity;
+      const double hint = i > begin ? last + glm::length(p - samples.points[i - 1]) : kInfinity;
       last = mesh(p, hint);
       groups[g].add(p, last);
-      if (!(tolerance > 0 && last > tolerance && in_crack(field, p, tolerance))) open[g].add(p, last);
+      if (tolerance > 0 && last > tolerance) beyond.push_back(p);
+    }
+    if (run.cancelled()) return;
+    const std::vector<bool> in_crack = probes.local().in_cracks(beyond);
+    std::size_t next = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double distance = groups[g].distances[i - begin];
+      const bool was_probed = tolerance > 0 && distance > tolerance;
+      if (!(was_probed && in_crack[next++])) open[g].add(samples.points[i], distance);
     }
     progress.add(1.0 / static_cast<double>(groups.size()));
   });
