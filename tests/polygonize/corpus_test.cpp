@@ -1,0 +1,69 @@
+// Whatever the kernel can say, meshed: random nests of every primitive and operator, each through everything that is promised of
+// a mesh. 200 of them; 2,000 with CAMBIUM_EXHAUSTIVE=1 in the environment.
+#include "polygonize/polygonize.h"
+#include "polygonize/verify.h"
+#include "tests/blobtree/random_blobtrees.h"
+#include "tests/blobtree/strained_blobtrees.h"
+#include "tests/polygonize/cgal_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace cambium {
+namespace {
+
+std::uint64_t rounds() {
+  const char* exhaustive = std::getenv("CAMBIUM_EXHAUSTIVE");
+  return exhaustive && std::string_view(exhaustive) == "1" ? 2000 : 200;
+}
+
+// One in four is of a family that strains something; the others are small nests of anything.
+BlobTree corpus_tree(std::uint64_t i) {
+  if (i % 4 != 3) return random_blobtree(i, 1 + static_cast<int>(i % 3));
+  return strained_blobtree(i / 4 % strains().size(), i).tree;
+}
+
+double longest(const Vec3& size) { return std::max({size.x, size.y, size.z}); }
+
+void expect_shippable(const Field& field, double tolerance) {
+  PolygonizeOptions options;
+  options.tolerance = tolerance;
+  const auto made = polygonize(field, options, {});
+  ASSERT_TRUE(made.has_value());
+  const Mesh& mesh = made->mesh;
+  const Verification v = *verify_mesh(mesh, field, {.tolerance = tolerance, .surface_samples = 20'000}, {});
+  if (v.surface_to_mesh.samples == 0) {
+    EXPECT_TRUE(mesh.triangles.empty());
+    return;
+  }
+  EXPECT_TRUE(v.topology.closed_manifold())
+      << "boundary edges " << v.topology.boundary_edges << ", non-manifold edges " << v.topology.nonmanifold_edges
+      << ", vertices " << v.topology.nonmanifold_vertices << ", degenerate " << v.topology.degenerate_triangles;
+  EXPECT_EQ(v.topology.unused_vertices, 0u);
+  EXPECT_GT(v.topology.volume, 0);
+  EXPECT_EQ(v.self_intersections, 0u);
+  if (v.topology.closed_manifold()) {
+    EXPECT_EQ(testing::cgal_self_intersections(mesh).size(), v.self_intersections);
+  }
+  for (const auto& [name, figures] : {std::pair{"mesh to surface", v.mesh_to_surface}, {"surface to mesh", v.open_surface_to_mesh}}) {
+    EXPECT_GE(figures.within, 0.999) << name << ", 99.9 % " << figures.p999;
+    EXPECT_EQ(figures.within_twice, 1) << name << ", max " << figures.max << " at " << figures.max_at.x << " "
+                                       << figures.max_at.y << " " << figures.max_at.z;
+  }
+}
+
+TEST(Corpus, EveryMeshIsClosedManifoldFreeOfCrossingsAndWithinTolerance) {
+  const std::uint64_t count = rounds();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Field field(corpus_tree(i));
+    if (field.bounds().empty()) continue;
+    const double tolerance = 0.004 * longest(field.bounds().size());
+    SCOPED_TRACE("tree " + std::to_string(i) + ", tolerance " + std::to_string(tolerance));
+    expect_shippable(field, tolerance);
+  }
+}
+
+}  // namespace
+}  // namespace cambium
