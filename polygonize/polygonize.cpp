@@ -19,6 +19,7 @@ namespace cambium {
 namespace {
 
 constexpr std::size_t kMostRounds = 12;
+constexpr double kAim = 0.9;           // of the tolerance: what is measured at a few places of a polygon is larger somewhere
 constexpr std::size_t kMostCells = 400'000'000;
 constexpr double kWhole = 1.1;        // in radii: of larger cells the corners may miss a twig, or meet only across a diagonal
 constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge
@@ -100,7 +101,7 @@ std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& pl
     balance.update(refiner->tree(), refiner->contour(), refiner->new_patches());
     progress.add(std::ldexp(0.35, -static_cast<int>(report.rounds)));
     std::vector<std::uint32_t> leaves;
-    if (report.rounds < kMostRounds) leaves = leaves_to_refine(*refiner, balance, plan.tolerance);
+    if (report.rounds < kMostRounds) leaves = leaves_to_refine(*refiner, balance, kAim * plan.tolerance);
     if (leaves.empty()) break;
     if (!refiner->split(std::move(leaves), run)) return std::nullopt;
   }

@@ -1,12 +1,15 @@
 #include "polygonize/surface_octree.h"
 
 #include "blobtree/choices.h"
+#include "blobtree/input_error.h"
 #include "polygonize/field_batch.h"
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace cambium {
@@ -20,6 +23,19 @@ constexpr int kMostCuts = 3;   // at once: 9^3 corners
 CellPlace offset(const CellPlace& place, int x, int y, int z, int level) {
   return {place[0] + (static_cast<std::uint32_t>(x) << level), place[1] + (static_cast<std::uint32_t>(y) << level),
           place[2] + (static_cast<std::uint32_t>(z) << level)};
+}
+
+}  // namespace
+
+namespace {
+
+constexpr std::size_t kMostLeaves = 120'000'000;   // of 20 bytes, and some 250 more where they hold the surface
+
+void require_room(std::size_t leaves) {
+  if (leaves > kMostLeaves) {
+    throw InputError({}, fmt::format("more than {} cells for so fine a mesh", kMostLeaves),
+                     "a larger tolerance or voxel, or thicker primitives");
+  }
 }
 
 }  // namespace
@@ -303,9 +319,10 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
   tree.rule_ = rule;
   tree.cover_ = &cover;
   std::vector<Subtree> subtrees(cover.size());
+  std::atomic<std::size_t> so_far{0};
   tbb::enumerable_thread_specific<Sampler> samplers;
   tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
-    if (run.cancelled()) return;
+    if (run.cancelled() || so_far > kMostLeaves) return;
     const PrunedField field = cover.cube_field(i);
     const double wanted = rule.edge(field.smallest_radius());
     const int level = cover.level(i) + finer;
@@ -316,8 +333,10 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
     const int cuts = std::min(level - wanted_level, kMostCuts);
     subtrees[i].root =
         samplers.local().cut(tree, field, static_cast<std::uint32_t>(i), place, level, cuts, wanted_level, true, subtrees[i]);
+    so_far += subtrees[i].leaves.size();
   });
   if (run.cancelled()) return std::nullopt;
+  require_room(so_far);
   std::vector<std::size_t> nodes_at(cover.size() + 1, 0), leaves_at(cover.size() + 1, 0);
   for (std::size_t i = 0; i < cover.size(); ++i) {
     nodes_at[i + 1] = nodes_at[i] + subtrees[i].nodes.size();
@@ -405,6 +424,7 @@ std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::
   if (run.cancelled()) return {};
   std::size_t nodes_at = nodes_.size(), leaves_at = leaves_.size(), nodes = nodes_at, count = leaves_at;
   for (const Subtree& subtree : subtrees) nodes += subtree.nodes.size(), count += subtree.leaves.size();
+  require_room(count);
   nodes_.resize(nodes);
   leaves_.resize(count);
   for (std::size_t i = 0; i < leaves.size(); ++i) {
