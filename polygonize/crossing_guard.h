@@ -16,12 +16,12 @@ class CrossingGuard {
  public:
   using Corners = std::array<std::uint32_t, 3>;
 
-  /// `positions` outlives it and stays. Cost: a fifth of a microsecond a triangle.
+  /// `positions` outlives it and stays. Cost: n log n.
   CrossingGuard(const std::vector<Vec3>& positions, std::vector<Corners> triangles);
 
   /// Whether any triangle of `fan` would meet another of it, or one that is not in `star`, beyond what they share
   /// (triangle_contact.h, exactly). They are the triangles around a vertex and what fills their outline in their place.
-  /// Cost: a microsecond where the surface near by faces one way, else one a triangle.
+  /// Cost: a search of the tree; exact tests only where the surface near by does not face one way.
   bool crosses(std::span<const std::uint32_t> star, std::span<const Corners> fan);
 
   void change(std::uint32_t triangle, const Corners& corners);

@@ -18,7 +18,7 @@ struct DecimateOptions {
 /// triangles left, what is asked of shapes is lowered, then creases are given up, and where nothing more can go it stops above the
 /// wanted number. What crosses itself in `mesh` may do so still, but nothing else does. The vertices that remain keep position,
 /// normal and colour. nullopt if cancelled. The same at any thread count. Errors: InputError for 0 triangles or a mesh that is not a
-/// closed manifold. Cost: n log n, some 2 seconds for a million triangles. Source: Garland & Heckbert 1997, on OpenMesh's halfedges.
+/// closed manifold. Cost: n log n, some 8 seconds for a million triangles. Source: Garland & Heckbert 1997, on OpenMesh's halfedges.
 std::optional<Mesh> decimate(const Mesh& mesh, const DecimateOptions& options, const RunOptions& run);
 
 }  // namespace cambium
