@@ -18,8 +18,8 @@
 namespace cambium {
 namespace {
 
-constexpr std::size_t kMostRounds = 12;
-constexpr double kAim = 0.9;           // of the tolerance: what is measured at a few places of a polygon is larger somewhere
+constexpr std::size_t kMostRounds = 8;
+constexpr double kAim = 0.95;          // of the tolerance: what is measured at a few places of a polygon is larger somewhere
 constexpr std::size_t kMostCells = 400'000'000;
 constexpr double kWhole = 1.1;        // in radii: of larger cells the corners may miss a twig, or meet only across a diagonal
 constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge

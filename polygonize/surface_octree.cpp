@@ -121,7 +121,8 @@ class SurfaceOctree::Sampler {
   // corner asks the same field, that of the cover's cell it is in, also a little beyond it.
   void fill_cracks(const SurfaceOctree& tree, const PrunedField& field, const CellPlace& place, int level) {
     const double width = tree.narrow();
-    if (!(width > 0)) return;
+    // Sheets thicker than that reach over it with their support: both are active wherever a crack of theirs touches.
+    if (!(width > 0) || ChoiceEvaluator::smooth(field)) return;
     for (int z = 0, i = 0; z < side_; ++z)
       for (int y = 0; y < side_; ++y)
         for (int x = 0; x < side_; ++x, ++i) {
@@ -134,7 +135,7 @@ class SurfaceOctree::Sampler {
             if (!cell) continue;
             home = tree.cover_->cube_field(*cell);
           }
-          if (ChoiceEvaluator::smooth(home)) continue;
+          if (ChoiceEvaluator::smooth(home) || width > home.smallest_radius()) continue;
           // No field of these radii falls by more over that way, but for scars.
           const double reach = std::min(static_cast<double>(kFarthest), 2 * width / home.smallest_radius());
           if (static_cast<double>(f_[i]) < -reach - static_cast<double>(kDoubtfulValue)) continue;

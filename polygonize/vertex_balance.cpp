@@ -13,7 +13,7 @@ namespace cambium {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-constexpr float kSharpCare = 2.0f;   // where the surface turns, it may be farther off elsewhere than where that is measured
+constexpr float kSharpCare = 1.6f;   // where the surface turns, it may be farther off elsewhere than where that is measured
 
 /// How far outside of a polygon's mean plane the surface is where it crosses the polygon's edge, metres. Of a polygon that is folded
 /// flat, the distance to the nearest corner.
