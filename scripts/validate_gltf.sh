@@ -20,9 +20,9 @@ files=("$@")
 if [ ${#files[@]} -eq 0 ]; then
   made="$tools/made"
   mkdir -p "$made"
-  "$build/cambium" mesh "$top/examples/poplar.tree.toml" -o "$made/poplar.glb" --max-triangles 200k --quiet
-  "$build/cambium" mesh "$top/examples/poplar.tree.toml" -o "$made/levels.glb" --max-triangles 200k --lod 100k,20k,5k --quiet
-  files=("$made/poplar.glb" "$made/levels.glb")
+  "$build/cambium" mesh "$top/examples/presets/oak.tree.toml" -o "$made/oak.glb" --quiet
+  "$build/cambium" mesh "$top/examples/presets/oak.tree.toml" -o "$made/levels.glb" --lod 60k,20k,10k --quiet
+  files=("$made/oak.glb" "$made/levels.glb")
 fi
 
 NODE_PATH="$tools/node_modules" node - "${files[@]}" <<'SCRIPT'
