@@ -121,12 +121,14 @@ class SurfaceOctree::Sampler {
   // corner asks the same field, that of the cover's cell it is in, also a little beyond it.
   void fill_cracks(const SurfaceOctree& tree, const PrunedField& field, const CellPlace& place, int level) {
     const double width = tree.narrow();
-    // Sheets thicker than that reach over it with their support: both are active wherever a crack of theirs touches.
-    if (!(width > 0) || ChoiceEvaluator::smooth(field)) return;
+    if (!(width > 0)) return;
+    // Where nothing chooses there are no cracks, but corners on high faces may be those of a cell where something does.
+    const bool smooth = ChoiceEvaluator::smooth(field);
     for (int z = 0, i = 0; z < side_; ++z)
       for (int y = 0; y < side_; ++y)
         for (int x = 0; x < side_; ++x, ++i) {
           if (inside_[i] || f_[i] < -kFarthest - kDoubtfulValue) continue;
+          if (smooth && x < parts_ && y < parts_ && z < parts_) continue;
           const bool within = x > 0 && y > 0 && z > 0 && x < parts_ && y < parts_ && z < parts_;
           const Vec3 p = tree.point(offset(place, x, y, z, level));
           PrunedField home = field;
