@@ -12,11 +12,6 @@
 namespace cambium {
 namespace {
 
-float at_most(double v) {
-  const float f = static_cast<float>(v);
-  return static_cast<double>(f) <= v ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-
 constexpr std::size_t kTaskLeaves = 256;   // fewer are not worth a task of their own
 
 }  // namespace
@@ -27,17 +22,12 @@ BoxTree::BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box
   nodes_.resize(2 * leaves_ - 1);
   boxes_.resize(count);
   order_.resize(count);
-  std::vector<Bounds> boxes(count);
+  std::vector<FloatBox> boxes(count);
   std::vector<Entry> entries(count);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Box box = box_of(static_cast<std::uint32_t>(i));
-      for (std::size_t a = 0; a < 3; ++a) {
-        const int k = static_cast<int>(a);
-        boxes[i].lo[a] = at_most(box.lo[k]);
-        boxes[i].hi[a] = -at_most(-box.hi[k]);
-        entries[i].center[a] = 0.5f * (boxes[i].lo[a] + boxes[i].hi[a]);
-      }
+      boxes[i] = FloatBox(box_of(static_cast<std::uint32_t>(i)));
+      entries[i].center = 0.5f * (boxes[i].lo + boxes[i].hi);
       entries[i].index = static_cast<std::uint32_t>(i);
     }
   });
@@ -48,21 +38,12 @@ BoxTree::BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box
       boxes_[i] = boxes[order_[i]];
     }
   });
-  const auto join = [](Bounds& to, const Bounds& from) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      to.lo[a] = std::min(to.lo[a], from.lo[a]);
-      to.hi[a] = std::max(to.hi[a], from.hi[a]);
-    }
-  };
-  constexpr float kInf = std::numeric_limits<float>::infinity();
   tbb::parallel_for(std::size_t{0}, leaves_, [&](std::size_t leaf) {
-    Bounds bounds{{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}};
-    for (std::size_t i = first(leaf); i < first(leaf + 1); ++i) join(bounds, boxes_[i]);
-    nodes_[leaves_ - 1 + leaf] = bounds;
+    for (std::size_t i = first(leaf); i < first(leaf + 1); ++i) nodes_[leaves_ - 1 + leaf].extend(boxes_[i]);
   });
   for (std::size_t node = leaves_ - 1; node-- > 0;) {
     nodes_[node] = nodes_[2 * node + 1];
-    join(nodes_[node], nodes_[2 * node + 2]);
+    nodes_[node].extend(nodes_[2 * node + 2]);
   }
 }
 
@@ -72,15 +53,13 @@ void BoxTree::halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::si
   const auto at = [&](std::size_t leaf) { return entries.begin() + static_cast<std::ptrdiff_t>(first(leaf)); };
   const auto begin = at(begin_leaf), middle = at(middle_leaf), end = at(end_leaf);
   if (begin == end) return;
-  std::array<float, 3> lo = begin->center, hi = lo;
+  glm::vec3 lo = begin->center, hi = lo;
   for (auto e = begin; e != end; ++e) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      lo[a] = std::min(lo[a], e->center[a]);
-      hi[a] = std::max(hi[a], e->center[a]);
-    }
+    lo = glm::min(lo, e->center);
+    hi = glm::max(hi, e->center);
   }
-  std::size_t axis = 0;
-  for (std::size_t a = 1; a < 3; ++a) {
+  int axis = 0;
+  for (int a = 1; a < 3; ++a) {
     if (hi[a] - lo[a] > hi[axis] - lo[axis]) axis = a;
   }
   if (middle != end) {

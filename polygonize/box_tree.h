@@ -2,7 +2,7 @@
 // at the median, so that large triangles beside tiny ones cost nothing extra. Knows nothing of what is in the boxes.
 #pragma once
 
-#include "blobtree/geometry.h"
+#include "blobtree/float_box.h"
 
 #include <algorithm>
 #include <array>
@@ -39,32 +39,16 @@ class BoxTree {
   double nearest2(const Vec3& p, double bound, Distance2&& distance2) const;
 
  private:
-  struct Bounds {   // floats rounded outwards
-    std::array<float, 3> lo, hi;
-    bool overlaps(const Bounds& b) const {
-      return (lo[0] <= b.hi[0]) & (b.lo[0] <= hi[0]) & (lo[1] <= b.hi[1]) & (b.lo[1] <= hi[1]) & (lo[2] <= b.hi[2]) &
-             (b.lo[2] <= hi[2]);
-    }
-    double distance2(const Vec3& p) const {
-      double sum = 0;
-      for (int a = 0; a < 3; ++a) {
-        const auto k = static_cast<std::size_t>(a);
-        const double d = p[a] < double{lo[k]} ? double{lo[k]} - p[a] : p[a] > double{hi[k]} ? p[a] - double{hi[k]} : 0.0;
-        sum += d * d;
-      }
-      return sum;
-    }
-  };
   struct Entry {
-    std::array<float, 3> center;
+    glm::vec3 center;
     std::uint32_t index;
   };
   void halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::size_t end_leaf);
   std::size_t first(std::size_t leaf) const { return order_.size() * leaf / leaves_; }
 
   // A heap: node n has children 2n + 1 and 2n + 2; the last `leaves_` of them, a power of two, are the leaves.
-  std::vector<Bounds> nodes_;
-  std::vector<Bounds> boxes_;              // in order_
+  std::vector<FloatBox> nodes_;
+  std::vector<FloatBox> boxes_;            // in order_
   std::vector<std::uint32_t> order_;
   std::size_t leaves_ = 0;
 };
@@ -72,10 +56,10 @@ class BoxTree {
 template <class Visit>
 void BoxTree::overlaps(std::size_t leaf, Visit&& visit) const {
   const std::size_t begin = first(leaf), end = first(leaf + 1);
-  const Bounds& mine = nodes_[leaves_ - 1 + leaf];
+  const FloatBox& mine = nodes_[leaves_ - 1 + leaf];
   for (std::size_t i = begin; i < end; ++i)
     for (std::size_t j = i + 1; j < end; ++j)
-      if (boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
+      if (boxes_[i].intersects(boxes_[j])) visit(order_[i], order_[j]);
   struct Place {
     std::size_t node, begin_leaf, leaves;
   };
@@ -84,19 +68,19 @@ void BoxTree::overlaps(std::size_t leaf, Visit&& visit) const {
   stack[waiting++] = {0, 0, leaves_};
   while (waiting > 0) {
     const Place at = stack[--waiting];
-    if (at.begin_leaf + at.leaves <= leaf + 1 || !nodes_[at.node].overlaps(mine)) continue;
+    if (at.begin_leaf + at.leaves <= leaf + 1 || !nodes_[at.node].intersects(mine)) continue;
     if (at.leaves > 1) {
       const std::size_t half = at.leaves / 2;
       stack[waiting++] = {2 * at.node + 2, at.begin_leaf + half, half};
       stack[waiting++] = {2 * at.node + 1, at.begin_leaf, half};
       continue;
     }
-    const Bounds& other = nodes_[at.node];
+    const FloatBox& other = nodes_[at.node];
     const std::size_t from = first(at.begin_leaf), to = first(at.begin_leaf + 1);
     for (std::size_t i = begin; i < end; ++i) {
-      if (!boxes_[i].overlaps(other)) continue;
+      if (!boxes_[i].intersects(other)) continue;
       for (std::size_t j = from; j < to; ++j)
-        if (boxes_[i].overlaps(boxes_[j])) visit(order_[i], order_[j]);
+        if (boxes_[i].intersects(boxes_[j])) visit(order_[i], order_[j]);
     }
   }
 }

@@ -3,30 +3,14 @@
 #include "polygonize/box_tree.h"
 #include "polygonize/triangle_contact.h"
 
-#include <cfloat>
-#include <cmath>
-#include <limits>
+#include <algorithm>
 
 namespace cambium {
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr double kFacing = 0.1;   // cosine: what faces a direction, rounding included
 
 }  // namespace
-
-const CrossingGuard::Bounds CrossingGuard::kNothing{{kInf, kInf, kInf}, {-kInf, -kInf, -kInf}};
-
-void CrossingGuard::Bounds::join(const Bounds& b) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    lo[a] = std::min(lo[a], b.lo[a]);
-    hi[a] = std::max(hi[a], b.hi[a]);
-  }
-}
-
-bool CrossingGuard::Bounds::contains(const Bounds& b) const {
-  return lo[0] <= b.lo[0] && lo[1] <= b.lo[1] && lo[2] <= b.lo[2] && hi[0] >= b.hi[0] && hi[1] >= b.hi[1] && hi[2] >= b.hi[2];
-}
 
 CrossingGuard::CrossingGuard(const std::vector<Vec3>& positions, std::vector<Corners> triangles)
     : positions_(positions), triangles_(std::move(triangles)), normals_(triangles_.size()), gone_(triangles_.size(), 0),
@@ -35,16 +19,10 @@ CrossingGuard::CrossingGuard(const std::vector<Vec3>& positions, std::vector<Cor
   build();
 }
 
-CrossingGuard::Bounds CrossingGuard::bounds_of(const Corners& corners) const {
-  Bounds bounds = kNothing;
-  for (const std::uint32_t v : corners) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      const float x = static_cast<float>(positions_[v][static_cast<int>(a)]), margin = FLT_EPSILON * std::abs(x) + FLT_MIN;
-      bounds.lo[a] = std::min(bounds.lo[a], x - margin);
-      bounds.hi[a] = std::max(bounds.hi[a], x + margin);
-    }
-  }
-  return bounds;
+FloatBox CrossingGuard::bounds_of(const Corners& corners) const {
+  Box box;
+  for (const std::uint32_t v : corners) box.extend(positions_[v]);
+  return FloatBox(box);
 }
 
 Vec3 CrossingGuard::area_of(const Corners& c) const {
@@ -66,30 +44,30 @@ void CrossingGuard::build() {
   if (leaves_ == 0) return;
   order_.clear();
   boxes_.clear();
-  nodes_.assign(2 * leaves_ - 1, kNothing);
+  nodes_.assign(2 * leaves_ - 1, FloatBox());
   for (std::size_t leaf = 0; leaf < leaves_; ++leaf) {
     for (const std::uint32_t* i = tree.leaf_begin(leaf); i != tree.leaf_end(leaf); ++i) {
       slots_[live[*i]] = static_cast<std::uint32_t>(order_.size());
       order_.push_back(live[*i]);
       boxes_.push_back(bounds_of(triangles_[live[*i]]));
-      nodes_[leaves_ - 1 + leaf].join(boxes_.back());
+      nodes_[leaves_ - 1 + leaf].extend(boxes_.back());
     }
   }
   for (std::size_t node = leaves_ - 1; node-- > 0;) {
     nodes_[node] = nodes_[2 * node + 1];
-    nodes_[node].join(nodes_[2 * node + 2]);
+    nodes_[node].extend(nodes_[2 * node + 2]);
   }
 }
 
 template <class Visit>
-void CrossingGuard::visit(const Bounds& bounds, Visit&& visit) const {
+void CrossingGuard::visit(const FloatBox& bounds, Visit&& visit) const {
   if (leaves_ == 0) return;
   std::array<std::size_t, 64> stack;
   std::size_t waiting = 0;
   stack[waiting++] = 0;
   while (waiting > 0) {
     const std::size_t node = stack[--waiting];
-    if (!nodes_[node].overlaps(bounds)) continue;
+    if (!nodes_[node].intersects(bounds)) continue;
     if (node < leaves_ - 1) {
       stack[waiting++] = 2 * node + 2;
       stack[waiting++] = 2 * node + 1;
@@ -97,15 +75,15 @@ void CrossingGuard::visit(const Bounds& bounds, Visit&& visit) const {
     }
     const std::size_t leaf = node - (leaves_ - 1);
     for (std::size_t i = order_.size() * leaf / leaves_; i < order_.size() * (leaf + 1) / leaves_; ++i)
-      if (boxes_[i].overlaps(bounds)) visit(order_[i]);
+      if (boxes_[i].intersects(bounds)) visit(order_[i]);
   }
 }
 
 bool CrossingGuard::crosses(std::span<const std::uint32_t> star, std::span<const Corners> fan) {
-  Bounds bounds = kNothing;
+  FloatBox bounds;
   Vec3 up(0.0);
   for (const std::uint32_t i : star) {
-    bounds.join(boxes_[slots_[i]]);
+    bounds.extend(boxes_[slots_[i]]);
     up += area_of(triangles_[i]);
   }
   up = glm::normalize(up);
@@ -122,9 +100,9 @@ bool CrossingGuard::crosses(std::span<const std::uint32_t> star, std::span<const
   for (std::size_t i = 0; i < fan.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j)
       if (triangles_meet_wrongly(positions_, fan[i], fan[j])) return true;
-    const Bounds mine = bounds_of(fan[i]);
+    const FloatBox mine = bounds_of(fan[i]);
     for (const std::uint32_t other : near_) {
-      if (boxes_[slots_[other]].overlaps(mine) && triangles_meet_wrongly(positions_, fan[i], triangles_[other])) return true;
+      if (boxes_[slots_[other]].intersects(mine) && triangles_meet_wrongly(positions_, fan[i], triangles_[other])) return true;
     }
   }
   return false;
@@ -134,19 +112,19 @@ void CrossingGuard::change(std::uint32_t triangle, const Corners& corners) {
   triangles_[triangle] = corners;
   normals_[triangle] = glm::vec3(glm::normalize(area_of(corners)));
   const std::size_t slot = slots_[triangle];
-  const Bounds bounds = boxes_[slot] = bounds_of(corners);
+  const FloatBox bounds = boxes_[slot] = bounds_of(corners);
   // The leaf whose share of the slots this one is in: the division that shares them out may round it one too low.
   std::size_t leaf = slot * leaves_ / order_.size();
   while (order_.size() * (leaf + 1) / leaves_ <= slot) ++leaf;
   for (std::size_t node = leaves_ - 1 + leaf; !nodes_[node].contains(bounds); node = (node - 1) / 2) {
-    nodes_[node].join(bounds);
+    nodes_[node].extend(bounds);
     if (node == 0) break;
   }
 }
 
 void CrossingGuard::remove(std::uint32_t triangle) {
   gone_[triangle] = 1;
-  boxes_[slots_[triangle]] = kNothing;
+  boxes_[slots_[triangle]] = FloatBox();
   --live_;
   if (live_ > 0 && 2 * live_ < built_) build();
 }

@@ -1,7 +1,7 @@
 // Whether triangles that change would cross others, while a mesh changes. Private to polygonize/.
 #pragma once
 
-#include "blobtree/geometry.h"
+#include "blobtree/float_box.h"
 
 #include <array>
 #include <cstddef>
@@ -28,28 +28,18 @@ class CrossingGuard {
   void remove(std::uint32_t triangle);
 
  private:
-  struct Bounds {   // floats rounded outwards
-    std::array<float, 3> lo, hi;
-    bool overlaps(const Bounds& b) const {
-      return (lo[0] <= b.hi[0]) & (b.lo[0] <= hi[0]) & (lo[1] <= b.hi[1]) & (b.lo[1] <= hi[1]) & (lo[2] <= b.hi[2]) &
-             (b.lo[2] <= hi[2]);
-    }
-    void join(const Bounds& b);
-    bool contains(const Bounds& b) const;
-  };
-  static const Bounds kNothing;
-  Bounds bounds_of(const Corners& corners) const;
+  FloatBox bounds_of(const Corners& corners) const;
   Vec3 area_of(const Corners& corners) const;
   void build();
   template <class Visit>
-  void visit(const Bounds& bounds, Visit&& visit) const;
+  void visit(const FloatBox& bounds, Visit&& visit) const;
 
   const std::vector<Vec3>& positions_;
   std::vector<Corners> triangles_;
   std::vector<glm::vec3> normals_;             // unit
   std::vector<std::uint8_t> gone_;
   std::size_t live_ = 0, built_ = 0;           // triangles now, and when the tree was built
-  std::vector<Bounds> nodes_, boxes_;          // a heap as in box_tree.h; and by slot
+  std::vector<FloatBox> nodes_, boxes_;        // a heap as in box_tree.h; and by slot
   std::vector<std::uint32_t> order_, slots_;   // triangle by slot, slot by triangle
   std::size_t leaves_ = 0;
   std::vector<std::uint32_t> near_;            // scratch
