@@ -59,6 +59,8 @@ class SurfaceCover::TapeStore {
 
 namespace {
 
+constexpr double kMostRadii = 1e9;   // cells of so many are as large as they get
+
 double longest_edge(const Box& box) {
   const Vec3 size = box.size();
   return std::max({size.x, size.y, size.z});
@@ -179,6 +181,7 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
   for (const double radii : {options.cell_radii, options.sparse_radii}) {
     if (!(radii > 0) || !std::isfinite(radii)) throw InputError({}, fmt::format("cells of {:g} radii", radii), "a finite number above 0");
   }
+  if (!(options.sagitta > 0)) throw InputError({}, fmt::format("a sagitta of {:g} m", options.sagitta), "a length above 0");
   SurfaceCover cover;
   cover.tree_ = field.tree_;
   if (field.bounds().empty()) return cover;
@@ -209,6 +212,10 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
       }
       rule.radii *= 1.5;
       rule.sparse_radii *= 1.5;
+      rule.sagitta *= 1.5 * 1.5;
+      if (!(rule.radii < kMostRadii)) {
+        throw InputError({}, fmt::format("at most {} cells", options.max_cells), "as many as the coarsest cover takes");
+      }
       continue;
     }
     arena.execute([&] {

@@ -20,12 +20,12 @@ struct CoverOptions {
   double cell_radii = 1.6;
   double sparse_radii = 8;
   std::size_t sparse_atoms = 4;
-  /// And nowhere more than sqrt(sagitta * smallest active radius), metres.
+  /// And nowhere more than sqrt(sagitta * smallest active radius), metres. Infinite: no such limit.
   double sagitta = kInfinity;
   /// Cells that follow the branches have this edge times a power of two; unset: one that divides the field's bounds.
   std::optional<double> unit;
-  /// Where the lengths above would give more, they are raised for all cells: rays get slower, never wrong. With `cell`
-  /// set: an error.
+  /// Where the lengths above would give more, they are raised for all cells: rays get slower, never wrong. With `cell` set, or
+  /// where the coarsest cells are still more: an error.
   std::size_t max_cells = 60'000'000;
 };
 
@@ -72,8 +72,8 @@ class SurfaceCover {
   std::size_t tape_count_ = 0;
 };
 
-/// Cells in Morton order. nullopt if cancelled. The same at any thread count. Errors: InputError for a cell size that is
-/// not a length, too fine for the field's bounds, or giving more than max_cells. Cost and memory: proportional to the cells.
+/// Cells in Morton order. nullopt if cancelled. The same at any thread count. Errors: InputError for a cell size or a
+/// sagitta that is not a length, cells too fine for the field's bounds, or more than max_cells. Cost and memory: proportional to the cells.
 std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions& options, const RunOptions& run);
 
 }  // namespace cambium

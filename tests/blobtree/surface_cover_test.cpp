@@ -408,6 +408,22 @@ TEST(SurfaceCover, RaisesItsLengthsRatherThanHoldTooManyCells) {
   for (const Vec3& p : surface) ASSERT_TRUE(cells.holds(p, 1e-9));
 }
 
+TEST(SurfaceCover, RaisesTheSagittaTooRatherThanHoldTooManyCells) {
+  CoverOptions options;
+  options.sagitta = 1e-4;
+  const std::size_t wanted = cover_surface(trunk_and_twig(), options, {}).value().size();
+  options.max_cells = wanted / 20;   // far fewer than the radii ask for
+  const SurfaceCover cover = cover_surface(trunk_and_twig(), options, {}).value();
+  EXPECT_LE(cover.size(), wanted / 20);
+  EXPECT_GT(cover.size(), 0u);
+}
+
+TEST(SurfaceCover, RefusesANumberOfCellsThatEvenTheCoarsestExceed) {
+  CoverOptions options;
+  options.max_cells = 0;
+  EXPECT_THROW(cover_surface(trunk_and_twig(), options, {}), InputError);
+}
+
 TEST(SurfaceCover, RefusesSizesThatCannotBe) {
   const Field field = trunk_and_twig();
   for (const double cell : {0.0, -1.0, std::nan(""), kInfinity, 1e-12})
@@ -419,6 +435,11 @@ TEST(SurfaceCover, RefusesSizesThatCannotBe) {
     CoverOptions following;
     following.cell_radii = radii;
     EXPECT_THROW(cover_surface(field, following, {}), InputError) << radii;
+  }
+  for (const double sagitta : {0.0, -1.0, std::nan("")}) {
+    CoverOptions following;
+    following.sagitta = sagitta;
+    EXPECT_THROW(cover_surface(field, following, {}), InputError) << sagitta;
   }
 }
 
