@@ -30,7 +30,8 @@ struct CreasePoint {
 /// nullopt where that does not converge inside `within`, or where another choice hides the crease there; more than three sides need
 /// not meet, and then it is the point of least squares. Position: to 1e-9 of within's size where the sheets have an angle or
 /// a contact is alone, to 1e-5 of it where a cusp is only just opened by a blend; with several creases in reach it may be another
-/// than the nearest. Where the sides agree it is a point of the surface, to 1e-3 of that size. Sides are of this field's tape (errors: std::invalid_argument).
+/// than the nearest. Where the sides agree it is a point of the surface, to 1e-3 of that size. Sides are of this field's tape
+/// (errors: std::invalid_argument).
 std::optional<CreasePoint> find_crease(ChoiceEvaluator& evaluator, const PrunedField& field, std::span<const Choices> sides,
                                        const Vec3& start, const Box& within, std::optional<int> plane = std::nullopt);
 

@@ -29,7 +29,8 @@ bool apart_along(const Vec3& direction, const Sheet& a, const Sheet& b) {
 }
 
 bool apart(const Sheet& a, const Sheet& b) {
-  for (const Vec3& direction : {b.middle - a.middle, a.normal, -b.normal, a.normal - b.normal, Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+  for (const Vec3& direction :
+       {b.middle - a.middle, a.normal, -b.normal, a.normal - b.normal, Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
     if (apart_along(direction, a, b) || apart_along(-direction, a, b)) return true;
   }
   return false;

@@ -62,8 +62,8 @@ struct MeshAttributes {
 };
 
 /// Vertices should lie on the surface (within a cell of it); the mesh needs normals. nullopt if cancelled. The same at any
-/// thread count. Errors: std::invalid_argument for a mesh without normals, InputError for a tile or an aspect that is not above 0, and those of ambient_occlusion.
-/// Cost: about a microsecond a vertex without colours and occlusion.
+/// thread count. Errors: std::invalid_argument for a mesh without normals, InputError for a tile or an aspect that is not above
+/// 0, and those of ambient_occlusion. Cost: about a microsecond a vertex without colours and occlusion.
 std::optional<MeshAttributes> mesh_attributes(const Field& field, const Mesh& mesh, const MeshAttributeOptions& options,
                                               const RunOptions& run);
 

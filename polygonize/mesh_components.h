@@ -16,7 +16,8 @@ struct ComponentReport {
 
 /// Removes every component that encloses a void (negative volume) whose mean thickness, twice its volume over its area, is below
 /// `thickness` metres: where two branches meet in a crevice narrower than a cell, lone outside corners between them would
-/// leave bubbles in the wood. What remains keeps its order. nullopt, with the mesh left as it was, if cancelled. Cost: about linear in triangles.
+/// leave bubbles in the wood. What remains keeps its order. nullopt, with the mesh left as it was, if cancelled. Cost: about
+/// linear in triangles.
 std::optional<ComponentReport> close_thin_voids(Mesh& mesh, double thickness, const RunOptions& run);
 
 }  // namespace cambium

@@ -274,7 +274,9 @@ class BandMaker {
   }
 
   static constexpr int kAround = kBlockCells + 2;
-  static std::size_t around(int x, int y, int z) { return static_cast<std::size_t>((x + 1) * kAround * kAround + (y + 1) * kAround + z + 1); }
+  static std::size_t around(int x, int y, int z) {
+    return static_cast<std::size_t>((x + 1) * kAround * kAround + (y + 1) * kAround + z + 1);
+  }
 
   // A point of the lattice, to the last bit; coordinates count from the leaf's corner.
   Vec3 world(const CellPlace& place, int x, int y, int z) const {

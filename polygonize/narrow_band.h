@@ -26,7 +26,9 @@ struct BandLeaf {
 /// Every leaf with an active voxel, in a fixed order; half_width in voxels, at most kMostBandVoxels. A distance is that to the
 /// nearest point of {f = kIso}: from the nearest of many points of the surface by closest-point steps (x onto the plane
 /// f + grad f (x - q) = kIso), so it is right beside creases too. To a tenth of a voxel next to the surface, a quarter at
-/// the band's rim beside edges; in crevices narrower than a voxel, as contacts close up to, up to half a voxel too long. nullopt if cancelled. Errors: InputError for a voxel size too fine to index. Memory and cost: proportional to the leaves.
-std::optional<std::vector<std::unique_ptr<BandLeaf>>> narrow_band(const Field& field, double voxel, double half_width, const RunOptions& run);
+/// the band's rim beside edges; in crevices narrower than a voxel, as contacts close up to, up to half a voxel too long.
+/// nullopt if cancelled. Errors: InputError for a voxel size too fine to index. Memory and cost: proportional to the leaves.
+std::optional<std::vector<std::unique_ptr<BandLeaf>>> narrow_band(const Field& field, double voxel, double half_width,
+                                                                  const RunOptions& run);
 
 }  // namespace cambium

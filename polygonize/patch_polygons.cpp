@@ -114,7 +114,8 @@ class PolygonBuilder {
  public:
   PolygonBuilder(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<Vec3>& positions,
                  double tolerance)
-      : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings), positions_(positions), tolerance_(tolerance), creases_(crease_edges(contour)), crowded_(crowded_patches(contour)) {
+      : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings),
+        positions_(positions), tolerance_(tolerance), creases_(crease_edges(contour)), crowded_(crowded_patches(contour)) {
     // Of a leaf with several patches each keeps to the hull of its own crossings, so that those of parallel sheets are apart.
     for (std::uint32_t p = 0; p < positions_.size(); ++p) {
       if (!crowded_[p]) continue;
