@@ -1,6 +1,7 @@
 #include "polygonize/surface_samples.h"
 
 #include "blobtree/surface_cover.h"
+#include "polygonize/fixed_random.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -19,16 +20,6 @@ constexpr double kStepRadii = 0.5;        // of a scan along a line, in smallest
 constexpr int kMostSteps = 1024;          // along one line in one cell
 constexpr double kBatchError = 3e-4;      // a batch and the field in double differ by 1e-4 at most
 constexpr std::size_t kBatch = 4096;
-
-std::uint64_t mixed(std::uint64_t x) {    // splitmix64's finisher
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-double chance(std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t d) {   // [0, 1)
-  const std::uint64_t bits = mixed(mixed(mixed(mixed(a + 0x9e3779b97f4a7c15u) + b) + c) + d);
-  return static_cast<double>(bits >> 11) * 0x1p-53;
-}
 
 // Crossings of the lattice's lines and the surface in one cell; scratch for one thread.
 class LineSampler {

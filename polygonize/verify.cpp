@@ -2,6 +2,7 @@
 
 #include "blobtree/input_error.h"
 #include "blobtree/progress_meter.h"
+#include "polygonize/fixed_random.h"
 #include "polygonize/mesh_distance.h"
 #include "polygonize/surface_distance.h"
 #include "polygonize/surface_samples.h"
@@ -24,6 +25,7 @@ void check_input(const Mesh& mesh, const VerifyOptions& options) {
     throw InputError({}, fmt::format("a tolerance of {:g}", options.tolerance), "a length, or 0 for none");
   }
   if (options.surface_samples == 0) throw InputError({}, "0 surface samples", "at least 1");
+  if (options.mesh_samples && *options.mesh_samples == 0) throw InputError({}, "0 mesh samples", "at least 1");
   for (const Vec3& p : mesh.positions) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
       throw InputError({}, "a vertex that is nowhere", "finite coordinates");
@@ -170,14 +172,35 @@ class MeshToSurface {
       for (const std::uint32_t v : mesh.triangles[i]) owner_[v] = static_cast<std::uint32_t>(i);
   }
 
-  std::optional<DistanceFigures> measure(double tolerance, const RunOptions& run) const {
+  /// `count` samples, or every vertex, edge midpoint and centroid.
+  std::optional<DistanceFigures> measure(double tolerance, std::optional<std::size_t> count, const RunOptions& run) const {
     constexpr std::size_t kLeaves = 4;   // a few dozen triangles share a pruned field
     std::vector<Group> groups((places_.leaf_count() + kLeaves - 1) / kLeaves);
+    const auto begin = [&](std::size_t g) { return places_.leaf_begin(g * kLeaves); };
+    const auto end = [&](std::size_t g) { return places_.leaf_end(std::min(places_.leaf_count(), (g + 1) * kLeaves) - 1); };
+    std::vector<double> area_before(groups.size() + 1, 0.0);
+    if (count) {
+      tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
+        for (const std::uint32_t* i = begin(g); i != end(g); ++i) area_before[g + 1] += area(corners(*i));
+      });
+      for (std::size_t g = 0; g < groups.size(); ++g) area_before[g + 1] += area_before[g];
+    }
+    const double density = area_before.back() > 0 ? static_cast<double>(count.value_or(0)) / area_before.back() : 0;
     ProgressMeter progress(run, "measuring from the mesh");
     tbb::enumerable_thread_specific<SurfaceDistance> distances([&] { return SurfaceDistance(field_); });
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-      const std::size_t last = std::min(places_.leaf_count(), (g + 1) * kLeaves) - 1;
-      measure_group(places_.leaf_begin(g * kLeaves), places_.leaf_end(last), distances.local(), groups[g], run);
+      if (run.cancelled() || begin(g) == end(g)) return;
+      Box box;
+      for (const std::uint32_t* i = begin(g); i != end(g); ++i)
+        for (const Vec3& p : corners(*i)) box.extend(p);
+      const PrunedField near = field_.prune(box.padded(0.25 * glm::length(box.size())));
+      const auto add = [&](const Vec3& p) {
+        if (!run.cancelled()) groups[g].add(p, from(near, p, distances.local()));
+      };
+      if (count)
+        scatter(begin(g), end(g), area_before[g], density, add);
+      else
+        std::for_each(begin(g), end(g), [&](std::uint32_t i) { sample_whole(i, add); });
       progress.add(1.0 / static_cast<double>(groups.size()));
     });
     if (run.cancelled()) return std::nullopt;
@@ -185,24 +208,38 @@ class MeshToSurface {
   }
 
  private:
-  void measure_group(const std::uint32_t* begin, const std::uint32_t* end, SurfaceDistance& distance, Group& group,
-                     const RunOptions& run) const {
-    if (run.cancelled() || begin == end) return;
-    Box box;
-    for (const std::uint32_t* i = begin; i != end; ++i)
-      for (const std::uint32_t v : mesh_.triangles[*i]) box.extend(mesh_.positions[v]);
-    const PrunedField near = field_.prune(box.padded(0.25 * glm::length(box.size())));
-    const auto add = [&](const Vec3& p) {
-      if (!run.cancelled()) group.add(p, from(near, p, distance));
-    };
+  using Corners = std::array<Vec3, 3>;
+
+  Corners corners(std::uint32_t i) const {
+    const auto& t = mesh_.triangles[i];
+    return {mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]};
+  }
+  static double area(const Corners& p) { return 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])); }
+
+  template <class Add>
+  void sample_whole(std::uint32_t i, const Add& add) const {
+    const auto& t = mesh_.triangles[i];
+    const Corners p = corners(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (owner_[t[k]] == i) add(p[k]);
+      if (t[k] < t[(k + 1) % 3]) add(0.5 * (p[k] + p[(k + 1) % 3]));   // the triangle across has it the other way round
+    }
+    add((p[0] + p[1] + p[2]) / 3.0);
+  }
+
+  // One sample to each 1 / density of area, counted from the mesh's first triangle.
+  template <class Add>
+  void scatter(const std::uint32_t* begin, const std::uint32_t* end, double before, double density, const Add& add) const {
     for (const std::uint32_t* i = begin; i != end; ++i) {
-      const auto& t = mesh_.triangles[*i];
-      const std::array<Vec3, 3> p{mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]};
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (owner_[t[k]] == *i) add(p[k]);
-        if (t[k] < t[(k + 1) % 3]) add(0.5 * (p[k] + p[(k + 1) % 3]));   // the triangle across has it the other way round
+      const Corners p = corners(*i);
+      const double after = before + area(p);
+      const auto last = static_cast<std::uint64_t>(after * density + 0.5);
+      for (auto n = static_cast<std::uint64_t>(before * density + 0.5); n < last; ++n) {
+        double u = chance(n, 0, 0, 0), v = chance(n, 1, 0, 0);
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        add(p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]));
       }
-      add((p[0] + p[1] + p[2]) / 3.0);
+      before = after;
     }
   }
 
@@ -246,7 +283,8 @@ std::optional<Verification> verify_in_arena(const Mesh& mesh, const Field& field
   if (!surface) return std::nullopt;
   const MeshDistance to_mesh(mesh);
   if (!measure_surface_to_mesh(field, *surface, to_mesh, options.tolerance, run, result)) return std::nullopt;
-  const auto from_mesh = MeshToSurface(mesh, field, to_mesh, *surface, options.tolerance).measure(options.tolerance, run);
+  const MeshToSurface mesh_to_surface(mesh, field, to_mesh, *surface, options.tolerance);
+  const auto from_mesh = mesh_to_surface.measure(options.tolerance, options.mesh_samples, run);
   if (!from_mesh) return std::nullopt;
   result.mesh_to_surface = *from_mesh;
   return result;

@@ -51,14 +51,17 @@ struct DistanceFigures {
 struct VerifyOptions {
   double tolerance = 0;                    ///< metres; 0: within and within_twice stay 1
   std::size_t surface_samples = 1'000'000; ///< on the implicit surface, about (surface_samples.h)
+  /// On the mesh, about: at random places, even over its area, so that meshes of unlike triangles are judged alike. Unset: every
+  /// vertex, edge midpoint and centroid.
+  std::optional<std::size_t> mesh_samples{};
   bool self_intersections = true;
 };
 
 struct Verification {
   MeshTopology topology;
   std::size_t self_intersections = 0;
-  DistanceFigures mesh_to_surface;         ///< from vertices, edge midpoints and centroids to {f = kIso}; never less than the
-                                           ///< truth (surface_distance.h), infinite if there is no surface
+  DistanceFigures mesh_to_surface;         ///< from samples of the mesh to {f = kIso}; never less than the truth
+                                           ///< (surface_distance.h), infinite if there is no surface
   DistanceFigures surface_to_mesh;         ///< from points of {f = kIso}, even over its area, to the nearest triangle
   /// The same without the samples in_cracks: those beyond the tolerance that lie in a gap narrower than the tolerance, along
   /// their normal. Where branches part, gaps start from width 0, so a part of them is finer than any cell.

@@ -124,6 +124,38 @@ TEST(Verify, CrossingTrianglesAreCountedUnlessNotAskedFor) {
   EXPECT_EQ(verified(mesh, field, {.surface_samples = 1000, .self_intersections = false}).self_intersections, 0u);
 }
 
+// A ball of two halves, one of them a little too large and of few triangles.
+TEST(Verify, SamplesOfTheMeshAreEvenOverItsAreaWhereTheirNumberIsGiven) {
+  const Field field = testing::sphere_field(1);
+  Mesh fine = ball_mesh(6, 1, kCenter), coarse = ball_mesh(3, 1.05, kCenter);
+  std::erase_if(fine.triangles, [&](const auto& t) { return fine.positions[t[0]].z < kCenter.z; });
+  std::erase_if(coarse.triangles, [&](const auto& t) { return coarse.positions[t[0]].z >= kCenter.z; });
+  const Mesh mesh = testing::joined(fine, coarse);
+  ASSERT_LT(coarse.triangles.size() * 20, fine.triangles.size());
+  VerifyOptions options{.tolerance = 0.01, .surface_samples = 1000, .mesh_samples = 20'000};
+  const DistanceFigures even = verified(mesh, field, options).mesh_to_surface;
+  EXPECT_NEAR(static_cast<double>(even.samples), 20'000, 2);
+  const auto area = [](const Mesh& m) {
+    double sum = 0;
+    for (const auto& [a, b, c] : m.triangles)
+      sum += 0.5 * glm::length(glm::cross(m.positions[b] - m.positions[a], m.positions[c] - m.positions[a]));
+    return sum;
+  };
+  EXPECT_NEAR(even.within, area(fine) / area(mesh), 0.01);
+  EXPECT_NEAR(even.max, 0.05, 0.001);
+  options.mesh_samples.reset();
+  const DistanceFigures all = verified(mesh, field, options).mesh_to_surface;
+  EXPECT_GT(all.within, 0.9);
+  EXPECT_GT(all.samples, 2 * mesh.triangles.size());
+}
+
+TEST(Verify, AMeshWithoutAreaHasNoSamplesEvenOverIt) {
+  Mesh mesh;
+  mesh.positions = {Vec3(0), Vec3(1, 0, 0), Vec3(2, 0, 0)};
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_EQ(verified(mesh, testing::sphere_field(1), {.surface_samples = 1000, .mesh_samples = 1000}).mesh_to_surface.samples, 0u);
+}
+
 TEST(Verify, WithNoSurfaceOrNoMeshThereIsNoDistance) {
   const Field field = testing::sphere_field(1), nothing = testing::field_of(Sphere{Vec3(0), 1, 0.4});   // never reaches kIso
   const Verification bare = verified(Mesh{}, field);
@@ -139,18 +171,21 @@ TEST(Verify, TheSameAtAnyThreadCount) {
   PolygonizeOptions options;
   options.voxel = 0.05;
   const Mesh mesh = polygonize(field, options, {})->mesh;
-  const VerifyOptions how{.tolerance = 0.01, .surface_samples = 5000};
-  const Verification one = verified(mesh, field, how, 1);
-  for (const int threads : {2, 4}) {
-    const Verification other = verified(mesh, field, how, threads);
-    for (const auto& [a, b] : {std::pair{one.mesh_to_surface, other.mesh_to_surface}, {one.surface_to_mesh, other.surface_to_mesh}}) {
-      EXPECT_EQ(a.samples, b.samples);
-      EXPECT_EQ(a.max, b.max);
-      EXPECT_EQ(a.p999, b.p999);
-      EXPECT_EQ(a.p99, b.p99);
-      EXPECT_EQ(a.mean, b.mean);
-      EXPECT_EQ(a.max_at, b.max_at);
-      EXPECT_EQ(a.within, b.within);
+  VerifyOptions how{.tolerance = 0.01, .surface_samples = 5000};
+  for (const std::optional<std::size_t> samples : {std::optional<std::size_t>(), std::optional<std::size_t>(5000)}) {
+    how.mesh_samples = samples;
+    const Verification one = verified(mesh, field, how, 1);
+    for (const int threads : {2, 4}) {
+      const Verification other = verified(mesh, field, how, threads);
+      for (const auto& [a, b] : {std::pair{one.mesh_to_surface, other.mesh_to_surface}, {one.surface_to_mesh, other.surface_to_mesh}}) {
+        EXPECT_EQ(a.samples, b.samples);
+        EXPECT_EQ(a.max, b.max);
+        EXPECT_EQ(a.p999, b.p999);
+        EXPECT_EQ(a.p99, b.p99);
+        EXPECT_EQ(a.mean, b.mean);
+        EXPECT_EQ(a.max_at, b.max_at);
+        EXPECT_EQ(a.within, b.within);
+      }
     }
   }
 }
@@ -161,6 +196,7 @@ TEST(Verify, BadInputIsRefused) {
   EXPECT_THROW(verified(mesh, field, {.tolerance = -1}), InputError);
   EXPECT_THROW(verified(mesh, field, {.tolerance = std::nan("")}), InputError);
   EXPECT_THROW(verified(mesh, field, {.surface_samples = 0}), InputError);
+  EXPECT_THROW(verified(mesh, field, {.mesh_samples = 0}), InputError);
   mesh.positions[3].y = kInfinity;
   EXPECT_THROW(verified(mesh, field), InputError);
   mesh = ball_mesh(1, 1);
