@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -97,15 +98,18 @@ int main(int count, char** words) {
     fmt::print("{}", cambium::bench::kUsage);
     return 0;
   }
-  const bool is_child = count == 4 && std::string(words[1]) == "--measure-mesher";   // of this program itself
+  const bool is_child = count > 1 && std::string(words[1]) == "--measure-mesher";   // of this program itself
   cambium::bench::Arguments arguments;
   if (!is_child && !cambium::bench::read_arguments(count, words, arguments)) return 2;
   try {
     if (is_child) {
-      cambium::bench::measure_mesher(words[2], std::stod(words[3]));
+      cambium::bench::measure_mesher(count - 2, words + 2);
       return 0;
     }
     return cambium::bench::run(arguments);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "cambium_bench: not enough memory\n");
+    return cambium::bench::kOutOfMemory;
   } catch (const std::exception& error) {
     fmt::print(stderr, "cambium_bench: {}\n", error.what());
     return 1;

@@ -10,6 +10,7 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -62,7 +63,7 @@ Grid::Ptr rasterise(const Field& field, double voxel, int threads) {
 
 }  // namespace
 
-Mesh vdb_pipeline(const Field& field, double voxel, int threads) {
+Mesh vdb_pipeline(const Field& field, double voxel, int threads, const std::function<void()>& made) {
   openvdb::initialize();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   std::vector<openvdb::Vec3s> points;
@@ -71,6 +72,7 @@ Mesh vdb_pipeline(const Field& field, double voxel, int threads) {
     const Grid::Ptr grid = rasterise(field, voxel, threads);
     openvdb::tools::volumeToMesh(*grid, points, quads, kIso);
   }
+  made();
   Mesh mesh;
   mesh.positions.reserve(points.size());
   for (const auto& p : points) mesh.positions.emplace_back(p.x(), p.y(), p.z());
