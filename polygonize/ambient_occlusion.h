@@ -13,7 +13,8 @@ namespace cambium {
 struct OcclusionOptions {
   std::optional<double> reach;     ///< metres a ray looks for an obstacle; unset: a tenth of the mesh's longest side
   /// Metres between the places that rays leave from, where the mesh is denser; what stands in their way is as coarse. Unset: 0.03
-  /// of the reach, or of a tenth of the mesh if that is less. 0: each vertex, and the mesh itself in the way, which takes five times as long.
+  /// of the reach, or of a tenth of the mesh if that is less. 0: each vertex, and the mesh itself in the way, which takes five times
+  /// as long.
   std::optional<double> spacing;
   int rays = 2;                    ///< from each place, 1 to 4096, before passes that average over neighbouring ones
   std::uint64_t seed = 0;
