@@ -58,6 +58,7 @@ void set_polygonize_figures(Job& job, const PolygonizeReport& report) {
   job.figures.set("cells", report.cells);
   job.figures.set("rounds", report.rounds);
   job.figures.set("closed_voids", report.closed_voids);
+  job.figures.set("crumbs", report.crumbs);
   job.figures.set("uncertain", report.uncertain.size());
   Json places = Json::array();
   for (std::size_t i = 0; i < std::min(report.uncertain.size(), kListedPlaces); ++i)

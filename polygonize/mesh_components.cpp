@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -56,7 +57,7 @@ void remove_vertices(Mesh& mesh, const std::vector<bool>& gone) {
 
 }  // namespace
 
-std::optional<ComponentReport> close_thin_voids(Mesh& mesh, double thickness, const RunOptions& run) {
+std::optional<ComponentReport> drop_small_components(Mesh& mesh, double thickness, double crumb, const RunOptions& run) {
   DisjointSets sets(mesh.positions.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (i % kPollEvery == 0 && run.cancelled()) return std::nullopt;
@@ -77,10 +78,11 @@ std::optional<ComponentReport> close_thin_voids(Mesh& mesh, double thickness, co
   std::vector<bool> gone(mesh.positions.size(), false);
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
     const std::uint32_t root = sets.root(v);
-    gone[v] = volume[root] < 0 && -2 * volume[root] < thickness * area[root];
-    if (root == v) ++(gone[v] ? report.closed_voids : report.components);
+    const bool is_void = volume[root] < 0;
+    gone[v] = is_void ? -2 * volume[root] < thickness * area[root] : area[root] < std::numbers::pi * crumb * crumb;
+    if (root == v) ++(!gone[v] ? report.components : is_void ? report.closed_voids : report.crumbs);
   }
-  if (report.closed_voids > 0) remove_vertices(mesh, gone);
+  if (report.closed_voids + report.crumbs > 0) remove_vertices(mesh, gone);
   return report;
 }
 

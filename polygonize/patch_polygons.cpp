@@ -4,6 +4,7 @@
 #include "polygonize/crowded_leaves.h"
 #include "polygonize/groups.h"
 #include "polygonize/polygon_ring.h"
+#include "polygonize/polygon_split.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -18,54 +19,8 @@ namespace {
 
 constexpr double kSeen = 1e-3;       // of the shorter leaf's edge: how far inside a face two vertices must see each other through it
 constexpr double kFaceMargin = 0.02; // face vertices keep this far inside their faces
+constexpr double kCreaseFaceMargin = 0.004;   // those on creases, which a margin moves off them
 constexpr std::size_t kGrain = 4096;
-
-/// A minimal edge in the frame of its polygon: coordinates along it and across it.
-struct EdgeFrame {
-  int a = 0, b = 1, c = 2;
-  double low = 0, high = 0;          // along a
-  double at_b = 0, at_c = 0;
-
-  EdgeFrame(const SurfaceOctree& tree, const MinimalEdge& edge)
-      : a(edge.axis), b((edge.axis + 1) % 3), c((edge.axis + 2) % 3) {
-    const Vec3 from = edge_point(tree, edge, 0), to = edge_point(tree, edge, 1);
-    low = from[a], high = to[a], at_b = from[b], at_c = from[c];
-  }
-  /// Across, then along.
-  Vec3 local(const Vec3& p) const { return {p[b] - at_b, p[c] - at_c, p[a]}; }
-};
-
-/// Whether the segment p-q passes between the edge and the vertex v within the triangle that they span.
-bool passes(const EdgeFrame& frame, const Vec3& p, const Vec3& q, const Vec3& v) {
-  const double side_p = cross2(v, p), side_q = cross2(v, q);
-  if (!((side_p > 0 && side_q < 0) || (side_p < 0 && side_q > 0))) return false;
-  const Vec3 y = p + (q - p) * (side_p / (side_p - side_q));
-  const double s = (y.x * v.x + y.y * v.y) / (v.x * v.x + v.y * v.y);
-  if (!(s > 0 && s < 1)) return false;
-  return y.z > frame.low + s * (v.z - frame.low) && y.z < frame.high + s * (v.z - frame.high);
-}
-
-/// Both triangles that the diagonal p-r makes of the quad p q r s stay inside the quad's envelope.
-bool diagonal_fits(const EdgeFrame& frame, const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-  if (const auto height = pierced_at(p, q, r)) return *height > frame.low && *height < frame.high && passes(frame, p, r, s);
-  if (const auto height = pierced_at(p, r, s)) return *height > frame.low && *height < frame.high && passes(frame, p, r, q);
-  return false;
-}
-
-// How well a pair of triangles does: shape first, then how little it bends across the diagonal.
-double diagonal_score(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {   // diagonal a-c
-  const auto quality = [](const Vec3& p, const Vec3& q, const Vec3& r, Vec3& normal) {
-    normal = glm::cross(q - p, r - p);
-    const double doubled_area = glm::length(normal);
-    const double longest = std::max({glm::dot(q - p, q - p), glm::dot(r - q, r - q), glm::dot(p - r, p - r)});
-    if (!(doubled_area > 0)) return 0.0;
-    normal /= doubled_area;
-    return doubled_area / longest;
-  };
-  Vec3 first, second;
-  const double worst = std::min(quality(a, b, c, first), quality(a, c, d, second));
-  return worst * (1.1 + glm::dot(first, second));
-}
 
 /// The face between the leaves in two neighbouring quadrants: its axis and plane, and where it reaches.
 struct Face {
@@ -113,9 +68,10 @@ struct FaceVertex {
 class PolygonBuilder {
  public:
   PolygonBuilder(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<Vec3>& positions,
-                 double tolerance)
+                 const std::vector<std::optional<Split>>& splits, double tolerance)
       : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings),
-        positions_(positions), tolerance_(tolerance), creases_(crease_edges(contour)), crowded_(crowded_patches(contour)) {
+        positions_(positions), splits_(splits), tolerance_(tolerance), creases_(crease_edges(contour)),
+        crowded_(crowded_patches(contour)) {
     // Of a leaf with several patches each keeps to the hull of its own crossings, so that those of parallel sheets are apart.
     for (std::uint32_t p = 0; p < positions_.size(); ++p) {
       if (!crowded_[p]) continue;
@@ -206,19 +162,23 @@ class PolygonBuilder {
     const MinimalEdge& edge = edges_[vertex.edge];
     const Face face = face_between(tree_, edge, EdgeFrame(tree_, edge), vertex.q, vertex.next);
     const Vec3 p = crossing_point(vertex.edge), r = crossing_point(vertex.other_edge);
-    Box within = face.box;
-    for (int k = 1; k < 3; ++k) {
-      const int b = (face.axis + k) % 3;
-      within.lo[b] += kFaceMargin * face.edge;
-      within.hi[b] -= kFaceMargin * face.edge;
-    }
+    const auto inside = [&](double margin) {
+      Box within = face.box;
+      for (int k = 1; k < 3; ++k) {
+        const int b = (face.axis + k) % 3;
+        within.lo[b] += margin * face.edge;
+        within.hi[b] -= margin * face.edge;
+      }
+      return within;
+    };
+    const Box within = inside(kFaceMargin);
     vertex.position = glm::clamp((p + r) / 2.0, within.lo, within.hi);
     vertex.normal = crossings_[vertex.edge].normal + crossings_[vertex.other_edge].normal;
     if (std::binary_search(creases_.begin(), creases_.end(), vertex.patches)) {
       std::array<Choices, 2> sides;
       choices.choose(field, p, sides[0]);
       choices.choose(field, r, sides[1]);
-      if (const auto found = find_crease(choices, field, sides, vertex.position, within, face.axis);
+      if (const auto found = find_crease(choices, field, sides, vertex.position, inside(kCreaseFaceMargin), face.axis);
           found && found->kind != CreaseKind::kNone) {
         vertex.position = found->position;
         vertex.crease = true;
@@ -261,35 +221,13 @@ class PolygonBuilder {
     plan.fan = true;
     plan.triangles = static_cast<std::uint8_t>(ring.count + faces);
     if (faces > 0) return plan;
-    const EdgeFrame frame(tree_, edges_[i]);
-    std::array<Vec3, 4> p;
-    for (int k = 0; k < ring.count; ++k) p[k] = frame.local(position(ring.patches[k]));
-    if (ring.count == 3) {
-      const auto height = pierced_at(p[0], p[1], p[2]);
-      if (height && *height > frame.low && *height < frame.high) plan.fan = false, plan.triangles = 1;
-      return plan;
-    }
-    const bool first = diagonal_fits(frame, p[0], p[1], p[2], p[3]), second = diagonal_fits(frame, p[1], p[2], p[3], p[0]);
-    if (!first && !second) return plan;
+    const auto edge = static_cast<std::uint32_t>(i);
+    const Split split = splits_[i] ? *splits_[i] : split_of(tree_, contour_, edge, ring, positions_, tolerance_);
+    if (split == Split::kFan) return plan;
     plan.fan = false;
-    plan.triangles = 2;
-    plan.other_diagonal = !first || (second && other_is_better(i, ring, p));
+    plan.triangles = static_cast<std::uint8_t>(ring.count - 2);
+    plan.other_diagonal = split == Split::kSecond;
     return plan;
-  }
-
-  // Of two diagonals that fit: the one that is closer to the surface where one of them is off (along a crease, say, the other way
-  // cuts it), else the one with the better triangles.
-  bool other_is_better(std::size_t i, const Ring& ring, const std::array<Vec3, 4>& p) const {
-    const PolygonFit fit = polygon_fit(ring, positions_, crossing_point(static_cast<std::uint32_t>(i)), edges_[i].axis);
-    if (fit.error[0] > tolerance_ / 2 && fit.error[1] < fit.error[0]) return true;
-    if (fit.error[1] > tolerance_ / 2 && fit.error[0] < fit.error[1]) return false;
-    const auto bow = [&](int k, int j) {   // over the chord, eight times, as the normals tell
-      const PatchVertex &a = contour_.vertices[ring.patches[k]], &b = contour_.vertices[ring.patches[j]];
-      return a.crease || b.crease ? 0 : std::abs(glm::dot(Vec3(b.normal - a.normal), b.position - a.position));
-    };
-    const double one = bow(0, 2), other = bow(1, 3), larger = std::max(one, other);
-    if (larger > 0.01 * glm::length(p[2] - p[0]) && std::min(one, other) < 0.75 * larger) return other < one;
-    return diagonal_score(p[1], p[2], p[3], p[0]) > diagonal_score(p[0], p[1], p[2], p[3]);
   }
 
   DualMesh write() const {
@@ -357,9 +295,11 @@ class PolygonBuilder {
     }
   }
 
+  // Between patches on a crease that passes their face by there is none: the way over the face leaves it.
   void write_creases(Mesh& mesh) const {
     for (const auto& crease : creases_) {
       if (const FaceVertex* face = face_of(crease[0], crease[1])) {
+        if (!face->crease) continue;
         const auto between = static_cast<std::uint32_t>(contour_.vertices.size() + static_cast<std::size_t>(face - faces_.data()));
         mesh.creases.push_back({crease[0], between});
         mesh.creases.push_back({crease[1], between});
@@ -376,6 +316,7 @@ class PolygonBuilder {
   const std::vector<MinimalEdge>& edges_;
   const std::vector<Crossing>& crossings_;
   std::vector<Vec3> positions_;
+  const std::vector<std::optional<Split>>& splits_;
   const double tolerance_;
   std::vector<std::array<std::uint32_t, 2>> creases_;
   const std::vector<bool> crowded_;
@@ -386,8 +327,9 @@ class PolygonBuilder {
 }  // namespace
 
 std::optional<DualMesh> build_polygons(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
-                                       const std::vector<Vec3>& positions, double tolerance, const RunOptions& run) {
-  return PolygonBuilder(tree, cover, contour, positions, tolerance).build(run);
+                                       const std::vector<Vec3>& positions, const std::vector<std::optional<Split>>& splits,
+                                       double tolerance, const RunOptions& run) {
+  return PolygonBuilder(tree, cover, contour, positions, splits, tolerance).build(run);
 }
 
 }  // namespace cambium

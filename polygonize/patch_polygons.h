@@ -4,6 +4,7 @@
 
 #include "polygonize/contour.h"
 #include "polygonize/mesh.h"
+#include "polygonize/polygon_split.h"
 
 #include <cstddef>
 #include <optional>
@@ -19,9 +20,11 @@ struct DualMesh {
 
 /// Of a compacted contour; positions: of its patches' vertices, each strictly inside its leaf. Where every leaf has one patch, no two
 /// triangles meet but in what they share.
+/// splits: by edge, one that fits (polygon_split.h), or none where it is to be chosen here.
 /// tolerance: a diagonal that is off by more than half of it gives way to a better one. nullopt if cancelled. Cost: linear in the
 /// edges.
 std::optional<DualMesh> build_polygons(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
-                                       const std::vector<Vec3>& positions, double tolerance, const RunOptions& run);
+                                       const std::vector<Vec3>& positions, const std::vector<std::optional<Split>>& splits,
+                                       double tolerance, const RunOptions& run);
 
 }  // namespace cambium

@@ -127,8 +127,8 @@ class VertexPlacer {
     }
     if (sides_.size() < 2) return;
     Box within = placed.box;
-    within.lo += kVertexMargin * placed.edge;
-    within.hi -= kVertexMargin * placed.edge;
+    within.lo += kCreaseMargin * placed.edge;
+    within.hi -= kCreaseMargin * placed.edge;
     std::optional<CreasePoint> found;
     if (sides_.size() <= kMostSides) found = find_crease(choices_, field, sides_, placed.best, within);
     if (!found) found = find_from_faces(field, placed, within);
@@ -165,7 +165,7 @@ class VertexPlacer {
       ++count;
     }
     if (count < 2) return std::nullopt;
-    const Vec3 middle = clamp_into(placed.box.lo + entries.position / static_cast<double>(count), placed.box, kVertexMargin * placed.edge);
+    const Vec3 middle = clamp_into(placed.box.lo + entries.position / static_cast<double>(count), placed.box, kCreaseMargin * placed.edge);
     if (sides_.size() <= kMostSides) {
       if (auto found = find_crease(choices_, field, sides_, middle, within)) return found;
     }

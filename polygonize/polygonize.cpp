@@ -18,8 +18,11 @@
 namespace cambium {
 namespace {
 
-constexpr std::size_t kMostRounds = 8;
-constexpr double kAim = 0.95;          // of the tolerance: what is measured at a few places of a polygon is larger somewhere
+constexpr std::size_t kMostRounds = 16;
+// From here on only what is off by so much more is cut: along a trunk one cut may take the next leaf over the tolerance by a hair, and
+// that the next, a leaf a round.
+constexpr std::size_t kLateRound = 6;
+constexpr double kLateCare = 1.25;
 constexpr std::size_t kMostCells = 400'000'000;
 constexpr double kWhole = 1.1;        // in radii: of larger cells the corners may miss a twig, or meet only across a diagonal
 constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge
@@ -33,6 +36,7 @@ struct Plan {
   CoverOptions cover;
   int finer = 0;
   double tolerance = 0;   // infinite where cells are given
+  double crumb = 0;       // see drop_small_components
 };
 
 Plan make_plan(const Field& field, const PolygonizeOptions& options) {
@@ -51,10 +55,11 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
   plan.tolerance = options.tolerance.value_or(std::max(across / 20000, std::isfinite(thinnest) ? thinnest / 8 : across / 1000));
   double sides = options.min_sides;
   if (options.preview) plan.tolerance *= 16, sides = std::min(sides, 4.0);
+  plan.crumb = std::min(plan.tolerance, thinnest);
   plan.leaves.radii = std::min(kCellsAround / sides, kWhole);
   plan.leaves.sagitta = kSagitta * plan.tolerance;
   plan.leaves.longest = across / 16;
-  plan.leaves.shortest_gap = plan.tolerance;
+  plan.leaves.shortest_gap = plan.tolerance / 2;   // narrow() is at most twice that
   // Leaves halve from one that is just right for the thinnest twig, of which there is most, down to a quarter of the tolerance.
   double unit = std::isfinite(thinnest) ? plan.leaves.edge(thinnest) : plan.leaves.longest;
   const double finest = std::max(plan.tolerance / 4, std::max({size.x, size.y, size.z}) * std::ldexp(1.0, -kFinestHalvings));
@@ -85,6 +90,7 @@ struct Contoured {
   SurfaceOctree tree;
   Contour contour;
   std::vector<Vec3> positions;
+  std::vector<std::optional<Split>> splits;
 };
 
 // Contours, measures, and cuts the leaves of polygons that are off, until none is.
@@ -98,24 +104,28 @@ std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& pl
   VertexBalance balance(plan.tolerance);
   for (;; ++report.rounds) {
     if (!refiner->place(run)) return std::nullopt;
-    balance.update(refiner->tree(), refiner->contour(), refiner->new_patches());
+    if (!balance.update(refiner->tree(), cover, refiner->contour(), refiner->new_patches(), run)) return std::nullopt;
     progress.add(std::ldexp(0.35, -static_cast<int>(report.rounds)));
     std::vector<std::uint32_t> leaves;
-    if (report.rounds < kMostRounds) leaves = leaves_to_refine(*refiner, balance, kAim * plan.tolerance);
+    const double care = report.rounds < kLateRound ? 1 : kLateCare;
+    if (report.rounds < kMostRounds) leaves = leaves_to_refine(*refiner, balance, care * plan.tolerance);
     if (leaves.empty()) break;
     if (!refiner->split(std::move(leaves), run)) return std::nullopt;
   }
   report.relinked_faces = refiner->relinked_faces();
   const Contour& whole = refiner->contour();
   std::vector<Vec3> positions;
+  std::vector<std::optional<Split>> splits;
   for (std::uint32_t p = 0; p < whole.patches.size(); ++p)
     if (whole.patches[p].alive()) positions.push_back(balance.positions()[p]);
   for (std::uint32_t e = 0; e < whole.edges.size(); ++e) {
-    if (whole.edge_alive[e]) report.largest_error = std::max(report.largest_error, static_cast<double>(balance.error(e)));
+    if (!whole.edge_alive[e]) continue;
+    report.largest_error = std::max(report.largest_error, static_cast<double>(balance.error(e)));
+    splits.push_back(balance.splits()[e]);
   }
   Contour compact = compacted(whole);
   progress.finish();
-  return Contoured{std::move(*refiner).take_tree(), std::move(compact), std::move(positions)};
+  return Contoured{std::move(*refiner).take_tree(), std::move(compact), std::move(positions), std::move(splits)};
 }
 
 void report_cells(const Contoured& made, PolygonizeReport& report) {
@@ -148,7 +158,7 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   const auto made = contour_field(*cover, plan, result.report, run);
   if (!made) return std::nullopt;
   ProgressMeter progress(run, "joining polygons");
-  auto built = build_polygons(made->tree, *cover, made->contour, made->positions, plan.tolerance, run);
+  auto built = build_polygons(made->tree, *cover, made->contour, made->positions, made->splits, plan.tolerance, run);
   if (!built) return std::nullopt;
   progress.add(0.7);
   result.mesh = std::move(built->mesh);
@@ -157,10 +167,12 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   report_cells(*made, report);
   report.face_vertices = built->face_vertices;
   report.edge_vertices = built->edge_vertices;
-  const auto components = close_thin_voids(result.mesh, 2 * std::max(made->tree.narrow(), report.smallest_cell / 2), run);
+  const double thin = 2 * std::max(made->tree.narrow(), report.smallest_cell / 2);
+  const auto components = drop_small_components(result.mesh, thin, plan.crumb, run);
   if (!components) return std::nullopt;
   report.components = components->components;
   report.closed_voids = components->closed_voids;
+  report.crumbs = components->crumbs;
   progress.finish();
   return result;
 }

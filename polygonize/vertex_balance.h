@@ -1,7 +1,7 @@
 // Vertices of a contour moved off the surface by as much as makes their polygons fit best, and how well these fit then.
 #pragma once
 
-#include "polygonize/contour.h"
+#include "polygonize/polygon_split.h"
 
 namespace cambium {
 
@@ -12,21 +12,28 @@ class VertexBalance {
   /// Moves no vertex by more than half of `tolerance` (metres), and none on a crease.
   explicit VertexBalance(double tolerance) : tolerance_(tolerance) {}
 
-  /// After new patches, all that they touch. Cost: linear in those, and a look at every edge and patch.
-  void update(const SurfaceOctree& tree, const Contour& contour, const std::vector<std::uint32_t>& new_patches);
+  /// After new patches, all that they touch. False if cancelled. Cost: linear in those, a look at every edge and patch, and a few
+  /// samples of the field for each polygon that may bow by as much as the tolerance.
+  bool update(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<std::uint32_t>& new_patches,
+              const RunOptions& run);
 
-  /// By patch: strictly inside its leaf.
+  /// By patch: strictly inside its leaf; of several in one leaf each is in the middle of its crossings.
   const std::vector<Vec3>& positions() const { return positions_; }
-  /// By edge: of the polygon from the surface, metres: its mean plane where the surface crosses the edge, its sides, and the better
-  /// of its diagonals.
+  /// By edge: of the polygon from the surface, metres: where the surface crosses the edge, along its sides and the better of its
+  /// diagonals as the normals tell, and where it was measured at all that polygon_distance.h looks at.
   float error(std::uint32_t edge) const { return errors_[edge]; }
+  /// By edge: how its polygon is to be cut where that was measured.
+  const std::vector<std::optional<Split>>& splits() const { return splits_; }
   /// Whose errors the last update changed, ascending.
   const std::vector<std::uint32_t>& changed_edges() const { return changed_edges_; }
 
  private:
+  bool measure(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const RunOptions& run);
+
   double tolerance_;
   std::vector<Vec3> on_surface_, positions_;
   std::vector<float> heights_, errors_;   // of the surface over the polygon, before and after
+  std::vector<std::optional<Split>> splits_;
   std::vector<std::uint32_t> changed_edges_;
 };
 

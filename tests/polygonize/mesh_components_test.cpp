@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
+#include <numbers>
 
 namespace cambium {
 namespace {
@@ -31,7 +33,7 @@ TEST(MeshComponents, OnlyThinVoidsAreRemoved) {
   add_tetrahedron(mesh, far + 2.0, 2, true);       // a hollow worth keeping
   add_tetrahedron(mesh, far + 20.0, 0.01, false);  // a bead
   mesh.creases = {{0, 1}, {4, 5}, {8, 9}};
-  const auto report = close_thin_voids(mesh, 0.1, {});
+  const auto report = drop_small_components(mesh, 0.1, 0, {});
   ASSERT_TRUE(report.has_value());
   EXPECT_EQ(report->closed_voids, 1u);
   EXPECT_EQ(report->components, 3u);
@@ -44,15 +46,31 @@ TEST(MeshComponents, OnlyThinVoidsAreRemoved) {
   EXPECT_EQ(mesh.normals.size(), 12u);
 }
 
+TEST(MeshComponents, CrumbsAreRemovedByTheirArea) {
+  Mesh mesh;
+  for (const double size : {10.0, 0.1, 1.0}) add_tetrahedron(mesh, Vec3(mesh.positions.size(), 0, 0), size, false);
+  const double area = (1.5 + std::sqrt(3) / 2) * 0.01;   // of the small one
+  const double across = std::sqrt(area / std::numbers::pi);
+  Mesh kept = mesh;
+  EXPECT_EQ(drop_small_components(kept, 0, 0.99 * across, {})->crumbs, 0u);
+  EXPECT_EQ(kept.positions.size(), 12u);
+  const auto report = drop_small_components(mesh, 0, 1.01 * across, {});
+  EXPECT_EQ(report->crumbs, 1u);
+  EXPECT_EQ(report->closed_voids, 0u);
+  EXPECT_EQ(report->components, 2u);
+  EXPECT_TRUE(testing::check_mesh(mesh).closed_manifold());
+  EXPECT_EQ(mesh.positions.size(), 8u);
+}
+
 TEST(MeshComponents, CancelledItLeavesTheMeshAlone) {
   Mesh mesh;
   add_tetrahedron(mesh, Vec3(0), 0.01, true);
   const std::atomic<bool> cancel{true};
   RunOptions run;
   run.cancel = &cancel;
-  EXPECT_FALSE(close_thin_voids(mesh, 1, run).has_value());
+  EXPECT_FALSE(drop_small_components(mesh, 1, 0, run).has_value());
   EXPECT_EQ(mesh.triangles.size(), 4u);
-  EXPECT_EQ(close_thin_voids(mesh, 1, {})->closed_voids, 1u);
+  EXPECT_EQ(drop_small_components(mesh, 1, 0, {})->closed_voids, 1u);
   EXPECT_TRUE(mesh.triangles.empty());
 }
 

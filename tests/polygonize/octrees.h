@@ -82,8 +82,13 @@ inline std::vector<Vec3> positions_of(const Contour& contour) {
   return positions;
 }
 
+/// All to be chosen.
+inline std::vector<std::optional<Split>> splits_of(const Contour& contour) {
+  return std::vector<std::optional<Split>>(contour.edges.size());
+}
+
 inline DualMesh polygons_on(const OnOctree& on, const Contour& contour) {
-  return build_polygons(on.tree, on.cover, contour, positions_of(contour), kInfinity, {}).value();
+  return build_polygons(on.tree, on.cover, contour, positions_of(contour), splits_of(contour), kInfinity, {}).value();
 }
 
 /// The low end of a minimal edge, in units.

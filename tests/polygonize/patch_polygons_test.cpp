@@ -102,8 +102,8 @@ TEST(PatchPolygons, DoNotCrossWhereEveryLeafHasOnePatchEvenOnLeavesThatDoNotFit)
   EXPECT_GT(edge_vertices, 1000u);
 }
 
-TEST(PatchPolygons, CreasesAreEdgesOfTheMeshAndFaceVerticesStandInForNoMoreThanACell) {
-  std::size_t added = 0, exact = 0, all = 0;
+TEST(PatchPolygons, CreasesAreEdgesOfTheMeshAndFaceVerticesOfThemAreOnTheCurve) {
+  std::size_t passed_by = 0, exact = 0, all = 0;
   for (const testing::CreasedSolid& solid : testing::creased_solids()) {
     SCOPED_TRACE(solid.name);
     OnOctree on = coarse_octree(solid.field, 0.11, 3);
@@ -119,6 +119,7 @@ TEST(PatchPolygons, CreasesAreEdgesOfTheMeshAndFaceVerticesStandInForNoMoreThanA
     for (const auto& t : made.mesh.triangles)
       for (std::size_t k = 0; k < 3; ++k) edges.insert({t[k], t[(k + 1) % 3]});
     EXPECT_GT(made.mesh.creases.size(), 20u);
+    passed_by += crease_edges(contour).size() - made.mesh.creases.size();
     all += made.mesh.creases.size();
     EXPECT_TRUE(std::is_sorted(made.mesh.creases.begin(), made.mesh.creases.end()));
     for (const auto& [p, r] : made.mesh.creases) {
@@ -129,14 +130,26 @@ TEST(PatchPolygons, CreasesAreEdgesOfTheMeshAndFaceVerticesStandInForNoMoreThanA
       exact += p_off < 1e-6;
       if (r < patches) {
         EXPECT_LT(solid.from_crease(made.mesh.positions[r]), 0.1 * 0.11);
-      } else {   // the crease passes by the face
-        ++added;
-        EXPECT_LT(solid.from_crease(made.mesh.positions[r]), 0.25 * 0.11);
+      } else {
+        EXPECT_LT(solid.from_crease(made.mesh.positions[r]), 1e-6) << "where the crease passes the face by it is none";
       }
     }
   }
   EXPECT_GT(exact, 0.8 * static_cast<double>(all));
-  EXPECT_GT(added, 5u) << "the case this is for";
+  EXPECT_GT(passed_by, 5u) << "the case this is for";
+}
+
+TEST(PatchPolygons, AreSplitAsTheyWereToldAndAnyMayBeAFan) {
+  const Field field = testing::fork_field();
+  OnOctree on = coarse_octree(field, 0.1, 3);
+  const Contour contour = testing::contour_on(on);
+  const std::vector<std::optional<Split>> fans(contour.edges.size(), Split::kFan);
+  const DualMesh made =
+      build_polygons(on.tree, on.cover, contour, testing::positions_of(contour), fans, kInfinity, {}).value();
+  EXPECT_EQ(made.edge_vertices, contour.edges.size());
+  const testing::MeshChecks checks = testing::check_mesh(made.mesh);
+  EXPECT_TRUE(checks.closed_manifold()) << checks;
+  EXPECT_TRUE(self_intersections(made.mesh, {})->empty());
 }
 
 TEST(PatchPolygons, AreTheSameForAnyNumberOfThreadsAndNoneWhenCancelled) {
@@ -156,7 +169,7 @@ TEST(PatchPolygons, AreTheSameForAnyNumberOfThreadsAndNoneWhenCancelled) {
   const std::atomic<bool> cancel{true};
   RunOptions run;
   run.cancel = &cancel;
-  EXPECT_FALSE(build_polygons(on.tree, on.cover, contour, testing::positions_of(contour), kInfinity, run));
+  EXPECT_FALSE(build_polygons(on.tree, on.cover, contour, testing::positions_of(contour), testing::splits_of(contour), kInfinity, run));
 }
 
 }  // namespace
