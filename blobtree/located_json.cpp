@@ -14,6 +14,10 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
+constexpr std::size_t kMarkEvery = 1024;   // bytes
+
+bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
+
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 // A short piece of the text for a message.
@@ -248,8 +252,13 @@ LocatedJson LocatedJson::parse(std::string text, std::string file) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark
   document.text_ = std::move(text);
   document.line_starts_.push_back(0);
-  for (std::size_t i = 0; i < document.text_.size(); ++i)
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < document.text_.size(); ++i) {
+    if (i % kMarkEvery == 0) document.characters_before_.push_back(characters);
+    characters += starts_character(document.text_[i]);
     if (document.text_[i] == '\n') document.line_starts_.push_back(i + 1);
+  }
+  document.characters_before_.push_back(characters);   // where the last mark is the end itself
   if (document.text_.size() >= std::numeric_limits<std::uint32_t>::max())
     throw InputError({document.file_, 0, 0}, fmt::format("{} bytes", document.text_.size()), "less than 4 GiB");
   if (const auto nul = document.text_.find('\0'); nul != std::string::npos)
@@ -262,12 +271,17 @@ LocatedJson LocatedJson::parse(std::string text, std::string file) {
 
 JsonValue LocatedJson::root() const { return {this, static_cast<std::uint32_t>(cells_.size() - 1)}; }
 
+std::size_t LocatedJson::characters_before(std::size_t offset) const {
+  const std::size_t mark = offset / kMarkEvery;
+  const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(mark * kMarkEvery);
+  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(offset);
+  return characters_before_[mark] + static_cast<std::size_t>(std::count_if(begin, end, starts_character));
+}
+
 SourceLocation LocatedJson::location_of(std::size_t offset) const {
   const auto line = std::upper_bound(line_starts_.begin(), line_starts_.end(), offset) - line_starts_.begin();
   const std::size_t start = line_starts_[static_cast<std::size_t>(line) - 1];
-  const auto column = std::count_if(text_.begin() + static_cast<std::ptrdiff_t>(start),
-                                    text_.begin() + static_cast<std::ptrdiff_t>(offset),
-                                    [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  const std::size_t column = characters_before(offset) - characters_before(start);
   return {file_, static_cast<int>(line), static_cast<int>(column) + 1};
 }
 

@@ -40,12 +40,15 @@ class LocatedJson {
     };
   };
 
+  /// Cost: the same wherever on a line it stands, however long the line.
   SourceLocation location_of(std::size_t offset) const;
+  std::size_t characters_before(std::size_t offset) const;
 
   std::string file_, text_, pool_;
   std::vector<Cell> cells_;             // the root is the last one
   std::vector<std::uint32_t> links_;    // cells of arrays in order; of objects key, value, key, value ...
   std::vector<std::size_t> line_starts_;
+  std::vector<std::size_t> characters_before_;   // so many characters before every so many bytes
 };
 
 /// A value of a document, cheap to copy; must not outlive the document. Everything that a wrong file can cause is an

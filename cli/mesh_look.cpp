@@ -49,8 +49,8 @@ MeshLook mesh_look(const Recipe& recipe, bool takes_textures) {
 }
 
 SurfaceColor vertex_colors(const Bark& bark) {
-  return [&bark](Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal) {
-    const Vec3 albedo = bark.albedo(evaluator, field, p, normal);
+  return [&bark](std::span<const Contribution> contributions, const SurfaceTraits& traits, const Vec3&, const Vec3&) {
+    const Vec3 albedo = bark.look(contributions, traits).albedo;
     return std::array<std::uint8_t, 4>{srgb_byte(albedo.x), srgb_byte(albedo.y), srgb_byte(albedo.z), 255};
   };
 }

@@ -12,13 +12,15 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cambium {
 
-/// sRGB and alpha of a surface point. Called from many threads.
-using SurfaceColor =
-    std::function<std::array<std::uint8_t, 4>(Evaluator&, const PrunedField&, const Vec3& p, const Vec3& normal)>;
+/// sRGB and alpha of a surface point, from what contributes there (Evaluator::contributions) and how it came about. Called from many
+/// threads.
+using SurfaceColor = std::function<std::array<std::uint8_t, 4>(std::span<const Contribution>, const SurfaceTraits&, const Vec3& p,
+                                                               const Vec3& normal)>;
 
 struct MeshAttributeOptions {
   /// By branch id; a branch beyond it (a field without a table) has BranchInfo's defaults.
@@ -35,7 +37,8 @@ struct MeshAttributeOptions {
 
 /// Empty vectors where there is nothing to tell.
 struct MeshAttributes {
-  // One per vertex. Ids are those of the primitive that weighs most; lengths are means over all, weighted by their field values.
+  // One per vertex. Ids are those of the primitive whose own surface is nearest; lengths change over from one to the next within the
+  // thinner one's radius, so that a twig has its own from where it leaves the trunk.
   std::vector<std::uint32_t> branch;
   std::vector<std::uint32_t> order;
   std::vector<float> radius;                   ///< metres, of the wood where the vertex lies

@@ -8,46 +8,37 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace cambium {
 namespace {
 
-constexpr std::size_t kChunk = 1024;   // vertices of a task: neighbours in space, so its results are small and its tapes few
+constexpr std::size_t kChunk = 1024;   // vertices of a task: mostly neighbours in space, so its results are small and its tapes few
 
-/// Vertices in the order of the cover's cells, those in no cell last.
-struct ByCell {
-  std::vector<std::uint32_t> cell;       ///< by vertex
-  std::vector<std::uint32_t> vertices;
-};
+/// The field around one vertex after the other.
+class FieldAround {
+ public:
+  FieldAround(const Field& field, const SurfaceCover& cover) : field_(field), cover_(cover) {}
 
-ByCell sort_by_cell(const Mesh& mesh, const SurfaceCover& cover, const RunOptions& run) {
-  ByCell sorted;
-  const std::size_t n = mesh.positions.size();
-  const auto none = static_cast<std::uint32_t>(cover.size());
-  sorted.cell.assign(n, none);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 4096), [&](const auto& range) {
-    if (run.cancelled()) return;
-    Box cube;
-    std::uint32_t cell = none;
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const Vec3& p = mesh.positions[i];
-      // Most neighbours in a mesh share a cell.
-      const bool same = cell != none && glm::all(glm::greaterThanEqual(p, cube.lo)) && glm::all(glm::lessThan(p, cube.hi));
-      if (!same) {
-        const std::optional<std::size_t> found = cover.find(p);
-        cell = found ? static_cast<std::uint32_t>(*found) : none;
-        if (found) cube = cover.cube(*found);
-      }
-      sorted.cell[i] = cell;
+  const PrunedField& at(const Vec3& p) {
+    // Most neighbours in a mesh share a cell.
+    if (glm::all(glm::greaterThanEqual(p, cube_.lo)) && glm::all(glm::lessThan(p, cube_.hi))) return pruned_;
+    if (const auto cell = cover_.find(p)) {
+      cube_ = cover_.cube(*cell);
+      pruned_ = cover_.field(*cell);
+    } else {   // a vertex that is not quite on the surface may lie beside every cell of it
+      cube_ = {};
+      pruned_ = field_.prune(Box{p, p});
     }
-  });
-  std::vector<std::uint32_t> next(cover.size() + 2, 0);
-  for (const std::uint32_t cell : sorted.cell) ++next[cell + 1];
-  for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
-  sorted.vertices.resize(n);
-  for (std::size_t i = 0; i < n; ++i) sorted.vertices[next[sorted.cell[i]]++] = static_cast<std::uint32_t>(i);
-  return sorted;
-}
+    return pruned_;
+  }
+
+ private:
+  const Field& field_;
+  const SurfaceCover& cover_;
+  Box cube_;
+  PrunedField pruned_;
+};
 
 /// One thread's share of the work.
 class VertexReader {
@@ -56,19 +47,21 @@ class VertexReader {
             std::vector<SurfacePlace>& places) {
     const Vec3& p = mesh.positions[vertex];
     evaluator_.contributions(field, p, contributions_);
-    if (color) out.colors[vertex] = color(evaluator_, field, p, Vec3(mesh.normals[vertex]));
     // A ridge takes two that meet.
-    if (contributions_.size() > 1) out.ridge[vertex] = static_cast<float>(evaluator_.surface_traits(field, p).ridge);
+    const bool meeting = contributions_.size() > 1;
+    const SurfaceTraits traits = color || meeting ? evaluator_.surface_traits(field, p) : SurfaceTraits{};
+    if (color) out.colors[vertex] = color(contributions_, traits, p, Vec3(mesh.normals[vertex]));
+    if (meeting) out.ridge[vertex] = static_cast<float>(traits.ridge);
     keep_axes();
     if (contributions_.empty()) return;
-    double total = 0, radius = 0, arc = 0;
+    share_out();
+    double radius = 0, arc = 0;
     for (const Contribution& c : contributions_) {
-      total += c.weight;
       radius += c.weight * c.radius;
       arc += c.weight * c.v;
     }
-    out.radius[vertex] = static_cast<float>(radius / total);
-    out.arc_length[vertex] = static_cast<float>(arc / total);
+    out.radius[vertex] = static_cast<float>(radius);
+    out.arc_length[vertex] = static_cast<float>(arc);
     const Contribution& main = contributions_[heaviest()];
     out.branch[vertex] = main.branch;
     out.order[vertex] = main.order;
@@ -91,6 +84,32 @@ class VertexReader {
       if (c.radius >= kThinner * most) thick_.push_back(c);
     }
     contributions_.swap(thick_);
+  }
+
+  /// Makes shares of the weights, which add up to 1: the vertex belongs to the primitive whose own surface is nearest, and changes
+  /// over to another within the thinner one's radius. The field's weights themselves would give a thin twig to the trunk as far
+  /// as the trunk's support reaches, several of the twig's diameters along it.
+  void share_out() {
+    if (contributions_.size() == 1) {
+      contributions_[0].weight = 1;
+      return;
+    }
+    constexpr double kLeast = 1e-6;   // whatever contributes has some share
+    const Contribution* nearest = &contributions_[0];
+    for (Contribution& c : contributions_) {
+      // Back from the weight to the distance from its own surface, which is that far out for a primitive by itself.
+      const double radii = kSupportPerRadius * std::sqrt(std::max(0.0, 1 - std::cbrt(std::min(c.weight, 1.0))));
+      c.weight = std::max(0.0, (radii - 1) * c.radius);
+      if (c.weight < nearest->weight) nearest = &c;
+    }
+    const double best = nearest->weight, radius = nearest->radius;
+    double total = 0;
+    for (Contribution& c : contributions_) {
+      const double farther = (c.weight - best) / std::max(std::min(c.radius, radius), 1e-12);
+      c.weight = std::max(kLeast, 1 - farther);
+      total += c.weight;
+    }
+    for (Contribution& c : contributions_) c.weight /= total;
   }
 
   /// The heaviest primitive of the heaviest branch; of equals the first.
@@ -142,9 +161,6 @@ std::optional<SurfacePlaces> surface_places(const Field& field, const Mesh& mesh
   if (n == 0) return found;
   const auto cover = cover_surface(field, {}, run);
   if (!cover) return std::nullopt;
-  const ByCell sorted = sort_by_cell(mesh, *cover, run);
-  if (run.cancelled()) return std::nullopt;
-
   ProgressMeter progress(run, "reading attributes");
   const std::size_t chunks = (n + kChunk - 1) / kChunk;
   std::vector<std::vector<SurfacePlace>> parts(chunks);
@@ -152,20 +168,15 @@ std::optional<SurfacePlaces> surface_places(const Field& field, const Mesh& mesh
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
     if (run.cancelled()) return;
     VertexReader& reader = readers.local();
-    PrunedField pruned;
-    std::uint32_t cell = 0;
+    FieldAround around(field, *cover);
     const std::size_t begin = chunk * kChunk, end = std::min(n, begin + kChunk);
+    parts[chunk].reserve(kChunk + kChunk / 4);
     for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t vertex = sorted.vertices[i], at = sorted.cell[vertex];
-      const bool outside = at == cover->size();
-      // A vertex that is not quite on the surface may lie beside every cell of it.
-      if (outside) pruned = field.prune(Box{mesh.positions[vertex], mesh.positions[vertex]});
-      else if (i == begin || at != cell) pruned = cover->field(at);
-      cell = at;
+      const auto vertex = static_cast<std::uint32_t>(i);
       const std::size_t before = parts[chunk].size();
-      reader.read(pruned, mesh, vertex, color, out, parts[chunk]);
-      found.first[vertex] = static_cast<std::uint32_t>(before);
-      found.count[vertex] = static_cast<std::uint8_t>(std::min<std::size_t>(parts[chunk].size() - before, 255));
+      reader.read(around.at(mesh.positions[i]), mesh, vertex, color, out, parts[chunk]);
+      found.first[i] = static_cast<std::uint32_t>(before);
+      found.count[i] = static_cast<std::uint8_t>(std::min<std::size_t>(parts[chunk].size() - before, 255));
       if (color && run.cancelled()) return;
     }
     progress.add(1.0 / static_cast<double>(chunks));
@@ -178,7 +189,7 @@ std::optional<SurfacePlaces> surface_places(const Field& field, const Mesh& mesh
   tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t chunk) {
     std::copy(parts[chunk].begin(), parts[chunk].end(), found.places.begin() + static_cast<std::ptrdiff_t>(first_place[chunk]));
     for (std::size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i)
-      found.first[sorted.vertices[i]] += static_cast<std::uint32_t>(first_place[chunk]);
+      found.first[i] += static_cast<std::uint32_t>(first_place[chunk]);
     parts[chunk] = {};
   });
   progress.finish();

@@ -10,7 +10,7 @@ namespace cambium {
 /// A vertex in the coordinates of one primitive (Contribution).
 struct SurfacePlace {
   std::uint32_t primitive = 0, branch = 0;
-  float weight = 0;
+  float weight = 0;          ///< share of the vertex, (0, 1]; of all its places it adds up to 1
   float turns = 0;           ///< [0, 1)
   float v = 0;               ///< metres
   float radius = 0;          ///< metres

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
 
 namespace cambium {
 namespace {
@@ -59,35 +60,66 @@ class TextureLayout {
     });
   }
 
-  BranchLayout& branch_of(std::uint32_t id) {
-    return *std::lower_bound(branches_.begin(), branches_.end(), id, [](const BranchLayout& b, std::uint32_t i) { return b.branch < i; });
+  std::uint32_t branch_of(std::uint32_t id) const {
+    const auto found =
+        std::lower_bound(branches_.begin(), branches_.end(), id, [](const BranchLayout& b, std::uint32_t i) { return b.branch < i; });
+    return static_cast<std::uint32_t>(found - branches_.begin());
   }
 
   void find_branches() {
+    const auto& places = places_.places;
+    const std::size_t blocks = (std::max(places.size(), mesh_.positions.size()) + kBlock - 1) / kBlock;
+    std::vector<std::vector<std::uint32_t>> parts(blocks);   // ids, mostly one run after the other
+    for_blocks(places.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+      auto& ids = parts[block];
+      for (std::size_t i = begin; i < end; ++i)
+        if (ids.empty() || places[i].branch != ids.back()) ids.push_back(places[i].branch);
+      std::sort(ids.begin(), ids.end());
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    });
     std::vector<std::uint32_t> ids;
-    std::uint32_t last = 0;
-    for (const SurfacePlace& place : places_.places)
-      if (ids.empty() || place.branch != last) ids.push_back(last = place.branch);
+    for (const auto& part : parts) ids.insert(ids.end(), part.begin(), part.end());
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     for (const std::uint32_t id : ids) branches_.push_back({id, {}, kInfinity, 0, 0});
-    layout_of_place_.resize(places_.places.size());
-    for_blocks(places_.places.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        layout_of_place_[i] = static_cast<std::uint32_t>(&branch_of(places_.places[i].branch) - branches_.data());
+    layout_of_place_.resize(places.size());
+    for_blocks(places.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const bool same = i > begin && places[i].branch == places[i - 1].branch;
+        layout_of_place_[i] = same ? layout_of_place_[i - 1] : branch_of(places[i].branch);
+      }
     });
-    // In the order of the places, which is in space: sums that the threads do not change.
+    find_seams(blocks);
+  }
+
+  void find_seams(std::size_t blocks) {
+    struct Run {   // of vertices of one branch
+      std::uint32_t layout = 0;
+      double least_v = kInfinity;
+      std::complex<double> hidden{0};
+    };
+    std::vector<std::vector<Run>> parts(blocks);
     const glm::vec3 hidden(options_.hidden_side);
-    for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-      if (v % kBlock == 0 && run_.cancelled()) return;
-      const SurfacePlace* const place = places_.heaviest(static_cast<std::uint32_t>(v));
-      if (!place) continue;
-      BranchLayout& layout = branches_[layout_of_place_[places_.first[v]]];
-      layout.least_v = std::min(layout.least_v, static_cast<double>(place->v));
-      const float facing = mesh_.normals.empty() ? 0.0f : glm::dot(mesh_.normals[v], hidden);
-      const float angle = static_cast<float>(kTurn) * place->turns;
-      layout.hidden += std::complex<double>(facing * std::cos(angle), facing * std::sin(angle));
-    }
+    for_blocks(mesh_.positions.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+      auto& runs = parts[block];
+      for (std::size_t v = begin; v < end; ++v) {
+        const SurfacePlace* const place = places_.heaviest(static_cast<std::uint32_t>(v));
+        if (!place) continue;
+        const std::uint32_t layout = layout_of_place_[places_.first[v]];
+        if (runs.empty() || runs.back().layout != layout) runs.push_back({layout, kInfinity, {}});
+        runs.back().least_v = std::min(runs.back().least_v, static_cast<double>(place->v));
+        const float facing = mesh_.normals.empty() ? 0.0f : glm::dot(mesh_.normals[v], hidden);
+        const float angle = static_cast<float>(kTurn) * place->turns;
+        runs.back().hidden += std::complex<double>(facing * std::cos(angle), facing * std::sin(angle));
+      }
+    });
+    // In the order of the vertices: sums that the threads do not change.
+    for (const auto& runs : parts)
+      for (const Run& run : runs) {
+        BranchLayout& layout = branches_[run.layout];
+        layout.least_v = std::min(layout.least_v, run.least_v);
+        layout.hidden += run.hidden;
+      }
     for (BranchLayout& layout : branches_) {
       if (std::abs(layout.hidden) > 0) layout.seam = std::arg(layout.hidden) / kTurn;
       layout.seam -= std::floor(layout.seam);
@@ -152,6 +184,12 @@ class TextureLayout {
 
   /// Corners that have no place on what was chosen get kNoPlace; all do where the field is nothing.
   Three common_places(const Three& corners) const {
+    const auto only = [&](int c) { return places_.count[corners[c]] == 1; };
+    if (only(0) && only(1) && only(2)) {   // nearly all
+      const Three at{places_.first[corners[0]], places_.first[corners[1]], places_.first[corners[2]]};
+      const std::uint32_t branch = places_.places[at[0]].branch;
+      if (places_.places[at[1]].branch == branch && places_.places[at[2]].branch == branch) return at;
+    }
     Three best{kNoPlace, kNoPlace, kNoPlace};
     double most = 0;
     for (const bool by_primitive : {true, false}) {
@@ -234,26 +272,37 @@ class TextureLayout {
           if (place != kNoPlace)
             out_.triangle_order[t] = static_cast<std::uint16_t>(std::min<std::uint32_t>(places_.places[place].order, 0xffff));
         if (std::find(at.begin(), at.end(), kNoPlace) != at.end()) {   // every one that there is, as it comes
+          some_without_.store(true, std::memory_order_relaxed);
           for (int c = 0; c < 3; ++c) uses_[t][c] = 2 * kSteps;
         } else {
           uses_[t] = uses_of(corners, at);
         }
         for (int c = 0; c < 3; ++c) {
           if (at[c] == kNoPlace) continue;
-          std::atomic_ref(used_[at[c]]).fetch_or(static_cast<std::uint16_t>(1u << uses_[t][c]), std::memory_order_relaxed);
+          const std::atomic_ref used(used_[at[c]]);
+          const auto bit = static_cast<std::uint16_t>(1u << uses_[t][c]);
+          if (!(used.load(std::memory_order_relaxed) & bit)) used.fetch_or(bit, std::memory_order_relaxed);
         }
       }
     });
   }
 
   void write_coordinates() {
-    std::vector<std::uint32_t> first(used_.size() + 1, 0);
-    for (std::size_t i = 0; i < used_.size(); ++i) first[i + 1] = first[i] + static_cast<std::uint32_t>(std::popcount(used_[i]));
-    out_.uvs.resize(first.back());
-    out_.unrolled.resize(first.back());
-    for_blocks(used_.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> first(used_.size()), of_block((used_.size() + kBlock - 1) / kBlock + 1, 0);
+    for_blocks(used_.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+      std::uint32_t count = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        std::uint32_t at = first[i];
+        first[i] = count;
+        count += static_cast<std::uint32_t>(std::popcount(used_[i]));
+      }
+      of_block[block + 1] = count;
+    });
+    std::partial_sum(of_block.begin(), of_block.end(), of_block.begin());
+    out_.uvs.resize(of_block.back());
+    out_.unrolled.resize(of_block.back());
+    for_blocks(used_.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        std::uint32_t at = first[i] += of_block[block];
         for (unsigned bits = used_[i]; bits; bits &= bits - 1) write_use(static_cast<std::uint32_t>(i), std::countr_zero(bits), at++);
       }
     });
@@ -267,6 +316,7 @@ class TextureLayout {
         }
     });
     // Few or none: where cells are larger than what a branch reaches.
+    if (!some_without_) return;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       Three& uv = out_.uv_triangles[t];
       if (std::find(uv.begin(), uv.end(), kNoPlace) == uv.end()) continue;
@@ -307,6 +357,7 @@ class TextureLayout {
   std::vector<std::int8_t> step_of_place_;
   std::vector<std::array<std::uint8_t, 3>> uses_;  // by corner
   std::vector<std::uint16_t> used_;                // by place
+  std::atomic<bool> some_without_{false};          // a triangle has a corner without a place
 };
 
 }  // namespace

@@ -74,6 +74,10 @@ const BarkMaterial& Bark::material(std::uint32_t order) const {
 BarkLook Bark::look(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& /*normal*/, double footprint) const {
   std::vector<Contribution>& contributions = scratch();
   evaluator.contributions(field, p, contributions);
+  return look(contributions, evaluator.surface_traits(field, p), footprint);
+}
+
+BarkLook Bark::look(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint) const {
   BarkLook out{Vec3(0.0), 0, 0};
   double total = 0;
   const Contribution* main = nullptr;
@@ -99,7 +103,6 @@ BarkLook Bark::look(Evaluator& evaluator, const PrunedField& field, const Vec3& 
   out.height /= total;
   out.relief /= total;
 
-  const SurfaceTraits traits = evaluator.surface_traits(field, p);
   const double grain = 0.9 + 0.2 * bark_noise(main->u * 24, main->v / std::max(main->radius, 1e-6) * 3, 24, seed_ ^ 61);
   if (traits.ridge > 0) out.albedo = glm::mix(out.albedo, out.albedo * Vec3(0.52, 0.43, 0.33), std::min(1.0, traits.ridge));
   if (traits.dent > 0) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ class Bark {
  public:
   explicit Bark(std::vector<BarkMaterial> by_order, std::uint64_t seed = 0);  ///< empty: the built-in poplar
   BarkLook look(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint = 0) const;
+  /// The same where contributions and traits are known.
+  BarkLook look(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint = 0) const;
   Vec3 albedo(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint = 0) const {
     return look(evaluator, field, p, normal, footprint).albedo;
   }

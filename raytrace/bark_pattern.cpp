@@ -87,8 +87,11 @@ BarkTexel plated(double scale, double u, double v, double unit, std::uint64_t se
 double lenticels(double x, double y, std::uint32_t period, std::uint64_t seed, double share, double half_width, double half_height) {
   const double cx = std::floor(x), cy = std::floor(y);
   double mark = 0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
+  // Pores of the neighbouring cells that are in reach.
+  const auto least = [](double past, double reach) { return past < reach ? -1 : 0; };
+  const auto most = [](double past, double reach) { return 1 - past < reach ? 1 : 0; };
+  for (int dy = least(y - cy, half_height); dy <= most(y - cy, half_height); ++dy) {
+    for (int dx = least(x - cx, half_width); dx <= most(x - cx, half_width); ++dx) {
       const std::uint64_t bits = hash_of(seed, wrapped(cx + dx, period), row_bits(cy + dy));
       if (unit_of(bits) > share) continue;
       const double size = 0.55 + 0.45 * unit_of(mix_bits(bits + 1));
@@ -140,9 +143,11 @@ BarkTexel pattern_at(BarkStyle style, double scale, double u, double v, double u
 
 double bark_noise(double x, double y, std::uint32_t period, std::uint64_t seed) {
   const double cx = std::floor(x), cy = std::floor(y);
-  const auto corner = [&](int dx, int dy) { return unit_of(hash_of(seed, wrapped(cx + dx, period), row_bits(cy + dy))); };
+  const std::uint64_t left = wrapped(cx, period), right = left + 1 < period ? left + 1 : 0;
+  const std::uint64_t low = row_bits(cy), high = row_bits(cy + 1);
+  const auto corner = [&](std::uint64_t column, std::uint64_t row) { return unit_of(hash_of(seed, column, row)); };
   const double fx = smooth(0, 1, x - cx), fy = smooth(0, 1, y - cy);
-  return lerp(lerp(corner(0, 0), corner(1, 0), fx), lerp(corner(0, 1), corner(1, 1), fx), fy);
+  return lerp(lerp(corner(left, low), corner(right, low), fx), lerp(corner(left, high), corner(right, high), fx), fy);
 }
 
 // A pattern's height in metres must follow the girth, but v / radius would shear the pattern wherever a branch tapers. So it is

@@ -92,6 +92,22 @@ TEST(LocatedJson, ValuesAndKeysKnowWhereTheyStand) {
   EXPECT_EQ(root.number_or("d", 3), 3);
 }
 
+// Counting from the start of the line for each would be 10^11 characters.
+TEST(LocatedJson, EveryValueOfAVeryLongLineKnowsItsColumn) {
+  constexpr std::size_t kValues = 200'000;
+  std::string text = "[\"first line\",\n";
+  for (std::size_t i = 0; i < kValues; ++i) text += i % 2 ? "1,    " : "\"\xC3\xA9\",  ";   // each six characters, every other of seven bytes
+  text += "0]";
+  const LocatedJson document = parse_json(text, "f");
+  const JsonValue root = document.root();
+  ASSERT_EQ(root.size(), kValues + 2);
+  for (std::size_t i = 0; i <= kValues; ++i) {
+    const SourceLocation at = root[i + 1].location();
+    ASSERT_EQ(at.line, 2);
+    ASSERT_EQ(at.column, static_cast<int>(6 * i) + 1);
+  }
+}
+
 TEST(LocatedJson, NumbersAreTheNearestDoubles) {
   const LocatedJson document = parse_json("[0.1, 12345678901234567890, 1e-400, 5e-324, -0, 1.7976931348623157e308]", "");
   const JsonValue a = document.root();

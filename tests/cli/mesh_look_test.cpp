@@ -32,7 +32,10 @@ std::array<std::uint8_t, 4> color_on(const MeshLook& look, std::uint32_t order) 
   builder.set_attributes(id, {0, order, 0, Vec3(1, 0, 0)});
   const Field field(builder.build(id));
   Evaluator evaluator;
-  return vertex_colors(look.bark)(evaluator, field.whole(), Vec3(0.1, 0, 0.5), Vec3(1, 0, 0));
+  const Vec3 p(0.1, 0, 0.5);
+  std::vector<Contribution> contributions;
+  evaluator.contributions(field.whole(), p, contributions);
+  return vertex_colors(look.bark)(contributions, evaluator.surface_traits(field.whole(), p), p, Vec3(1, 0, 0));
 }
 
 TEST(MeshLook, TexturesGoAlongAsTheyAreAndColoursThenOnlyTintThem) {

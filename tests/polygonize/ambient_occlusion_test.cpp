@@ -1,6 +1,7 @@
 #include "polygonize/ambient_occlusion.h"
 
 #include "blobtree/input_error.h"
+#include "polygonize/vertex_clusters.h"
 #include "sample_fields.h"
 #include "small_tree.h"
 
@@ -8,6 +9,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace cambium {
@@ -81,17 +84,65 @@ TEST(AmbientOcclusion, CrotchesAreDarkerThanTheRest) {
   EXPECT_GT(below / count, 0.95);
 }
 
-TEST(AmbientOcclusion, FewRaysAgreeWithMany) {
+/// How far apart, in the mean and for all but a hundredth.
+struct Difference {
+  double mean = 0, p99 = 0;
+};
+
+Difference difference(const std::vector<float>& a, const std::vector<float>& b) {
+  std::vector<double> apart(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) apart[i] = std::abs(a[i] - b[i]);
+  std::sort(apart.begin(), apart.end());
+  return {std::accumulate(apart.begin(), apart.end(), 0.0) / static_cast<double>(a.size()), apart[a.size() * 99 / 100]};
+}
+
+TEST(AmbientOcclusion, FewPlacesAndRaysAgreeWithEveryVertexAndMany) {
   const Field field = small_tree();
-  const Mesh mesh = small_tree_mesh(field);
+  const Mesh mesh = small_tree_mesh(field, 0.005);
   OcclusionOptions few, many;
-  few.reach = many.reach = 0.3;
+  few.reach = many.reach = 0.6;
+  few.spacing = 0.02;
+  many.spacing = 0;
   many.rays = 256;
   const auto a = ambient_occlusion(mesh, few, {}), b = ambient_occlusion(mesh, many, {});
   ASSERT_TRUE(a && b);
-  double squares = 0;
-  for (std::size_t i = 0; i < a->size(); ++i) squares += ((*a)[i] - (*b)[i]) * ((*a)[i] - (*b)[i]);
-  EXPECT_LT(std::sqrt(squares / static_cast<double>(a->size())), 0.05);
+  ASSERT_LT(3 * cluster_vertices(mesh, 0.02, {}).middle.size(), mesh.positions.size());   // there is something to leave out
+  const Difference found = difference(*a, *b);
+  EXPECT_LT(found.mean, 0.025);
+  EXPECT_LT(found.p99, 0.12);
+}
+
+TEST(AmbientOcclusion, NoSpacingTakesEveryVertex) {
+  const Field field = small_tree();
+  const Mesh mesh = small_tree_mesh(field);
+  OcclusionOptions options;
+  options.spacing = 0;
+  options.rays = 64;
+  const auto a = ambient_occlusion(mesh, options, {});
+  options.seed = 1'000'000;
+  const auto b = ambient_occlusion(mesh, options, {});
+  ASSERT_TRUE(a && b);
+  EXPECT_LT(difference(*a, *b).p99, 0.02);
+  EXPECT_EQ(cluster_vertices(mesh, 0, {}).middle.size(), mesh.positions.size());
+}
+
+TEST(AmbientOcclusion, AFlatPlateHasNothingInTheWay) {
+  Mesh mesh = plates(1);
+  mesh.positions.resize(21 * 21), mesh.normals.resize(21 * 21);
+  mesh.triangles.resize(800);
+  OcclusionOptions options;
+  options.spacing = 100;
+  const auto open = ambient_occlusion(mesh, options, {});
+  ASSERT_TRUE(open);
+  for (const float share : *open) EXPECT_EQ(share, 1.0f);
+}
+
+TEST(AmbientOcclusion, ThreadsDoNotChangeIt) {
+  const Field field = small_tree();
+  const Mesh mesh = small_tree_mesh(field);
+  RunOptions one, four;
+  one.threads = 1, four.threads = 4;
+  EXPECT_EQ(ambient_occlusion(mesh, {}, one), ambient_occlusion(mesh, {}, four));
 }
 
 TEST(AmbientOcclusion, BadOptionsAreErrorsACancelledRunIsNothingAndAnEmptyMeshHasNoValues) {
@@ -101,6 +152,9 @@ TEST(AmbientOcclusion, BadOptionsAreErrorsACancelledRunIsNothingAndAnEmptyMeshHa
   EXPECT_THROW(ambient_occlusion(mesh, options, {}), InputError);
   options.rays = 4;
   options.reach = 0;
+  EXPECT_THROW(ambient_occlusion(mesh, options, {}), InputError);
+  options.reach.reset();
+  options.spacing = -1;
   EXPECT_THROW(ambient_occlusion(mesh, options, {}), InputError);
   std::atomic<bool> cancel{true};
   RunOptions run;

@@ -57,6 +57,42 @@ TEST(SurfacePlaces, LengthsBlendWhereTheFieldBlends) {
   EXPECT_GT(across, 50u);
 }
 
+// A trunk's support reaches twelve of this twig's diameters along it.
+TEST(SurfacePlaces, ATwigIsItselfFromWhereItLeavesTheTrunk) {
+  BlobTreeBuilder builder;
+  const NodeId trunk = builder.add(Chain{{{Vec3(0), 0.1}, {Vec3(0, 0, 1), 0.1}}, 1});
+  builder.set_attributes(trunk, {2, 0, 0, Vec3(1, 0, 0)});
+  const NodeId twig = builder.add(Chain{{{Vec3(0, 0, 0.5), 0.005}, {Vec3(0.4, 0, 0.5), 0.005}}, 1});
+  builder.set_attributes(twig, {9, 1, 0.5, Vec3(0, 0, 1)});
+  const Field field(builder.build(builder.add(Sum{{trunk, twig}})));
+  PolygonizeOptions options;
+  options.tolerance = 0.0005;
+  const Mesh mesh = polygonize(field, options, {})->mesh;
+  MeshAttributes a;
+  const auto places = surface_places(field, mesh, {}, a, {});
+  ASSERT_TRUE(places);
+  std::size_t on_twig = 0, on_trunk = 0;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    float shares = 0;
+    for (const SurfacePlace& place : (*places)[v]) shares += place.weight;
+    EXPECT_NEAR(shares, 1, 1e-5);
+    if (p.x > 0.125) {   // beyond where the two melt into each other
+      ++on_twig;
+      EXPECT_NEAR(a.radius[v], 0.005, 0.0005) << p.x;
+      EXPECT_NEAR(a.arc_length[v], 0.5 + p.x, 0.01);
+      EXPECT_EQ(a.branch[v], 9u);
+      EXPECT_EQ(a.order[v], 1u);
+    } else if (p.x < 0 || std::abs(p.z - 0.5) > 0.03) {
+      ++on_trunk;
+      EXPECT_NEAR(a.radius[v], 0.1, 0.005);
+      EXPECT_EQ(a.branch[v], 2u);
+    }
+  }
+  EXPECT_GT(on_twig, 200u);
+  EXPECT_GT(on_trunk, 200u);
+}
+
 TEST(SurfacePlaces, RidgesAreOnlyWhereBranchesMeet) {
   const Field field = small_tree();
   const Mesh mesh = small_tree_mesh(field);
@@ -107,7 +143,7 @@ TEST(SurfacePlaces, ColoursComeFromTheCallback) {
   const Field field = small_tree();
   const Mesh mesh = small_tree_mesh(field);
   MeshAttributes a;
-  const SurfaceColor red_above_one = [](Evaluator&, const PrunedField&, const Vec3& p, const Vec3& n) {
+  const SurfaceColor red_above_one = [](std::span<const Contribution>, const SurfaceTraits&, const Vec3& p, const Vec3& n) {
     EXPECT_NEAR(glm::length(n), 1, 1e-3);
     return std::array<std::uint8_t, 4>{static_cast<std::uint8_t>(p.z > 1 ? 200 : 10), 0, 0, 255};
   };
@@ -123,7 +159,7 @@ TEST(SurfacePlaces, CancelledItIsNothing) {
   RunOptions run;
   run.cancel = &cancel;
   MeshAttributes a;
-  const SurfaceColor stop = [&](Evaluator&, const PrunedField&, const Vec3&, const Vec3&) {
+  const SurfaceColor stop = [&](std::span<const Contribution>, const SurfaceTraits&, const Vec3&, const Vec3&) {
     cancel = true;
     return std::array<std::uint8_t, 4>{};
   };

@@ -100,6 +100,23 @@ TEST(Bark, BlendsByFieldValueAcrossAJunction) {
   EXPECT_NEAR(color_at(bark, field, {-0.4, 0, 0.1}).z, 0, 1e-12);
 }
 
+TEST(Bark, LooksTheSameFromWhatIsKnownOfAPoint) {
+  const Bark bark({});
+  BlobTreeBuilder builder;
+  const NodeId a = scenes::add_chain(builder, {{{-0.5, 0, 0}, 0.1}, {{-0.05, 0, 0}, 0.1}}, 0, 0);
+  const NodeId b = scenes::add_chain(builder, {{{0.5, 0, 0}, 0.1}, {{0.05, 0, 0}, 0.1}}, 1, 1);
+  const Field field(builder.build(builder.add(Contact{{a, b}})));
+  const PrunedField whole = field.prune(field.bounds());
+  Evaluator evaluator;
+  for (const double x : {-0.4, -0.03, 0.0, 0.2}) {
+    const Vec3 p(x, 0.02, 0.1);
+    std::vector<Contribution> contributions;
+    evaluator.contributions(whole, p, contributions);
+    const BarkLook known = bark.look(contributions, evaluator.surface_traits(whole, p));
+    EXPECT_EQ(known.albedo, bark.look(evaluator, whole, p, {0, 0, 1}).albedo);
+  }
+}
+
 TEST(Bark, ACutFaceShowsWood) {
   const Field field = scenes::sawn();
   const Bark bark({});
