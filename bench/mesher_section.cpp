@@ -99,7 +99,7 @@ void add_run(Report& report, const std::string& name, const MesherRun& run, cons
     if (of_ours) {
       const bool fewer = unit[0] == '\0';   // triangles
       r.ratio = fewer ? figure / *of_ours : *of_ours / figure;
-      r.ratio_to = fewer ? "ours" : "it is ours";
+      r.ratio_to = fewer ? "ours" : "that: ours";
       r.target = fewer ? at_least(8) : at_most(0.5);
     }
     report.add(r);

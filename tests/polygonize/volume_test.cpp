@@ -1,7 +1,11 @@
 #include "polygonize/volume.h"
 
 #include "blobtree/input_error.h"
+#include "polygonize/mesh_distance.h"
+#include "polygonize/polygonize.h"
 #include "tests/polygonize/sample_fields.h"
+#include "tests/polygonize/small_tree.h"
+#include "tests/polygonize/written_volume.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <tuple>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -167,6 +172,41 @@ TEST(Volume, ThinTwigsAndHollowsKeepTheirSigns) {
   EXPECT_NEAR(value(4), -0.06, 0.02);
   EXPECT_GT(value(5), 0);
   EXPECT_GT(value(6), 0);
+}
+
+// Farthest vertex or centroid of one mesh from another.
+double farthest(const Mesh& mesh, const Mesh& from, Vec3& where) {
+  const MeshDistance distance(from);
+  double most = 0;
+  const auto ask = [&](const Vec3& p) {
+    const double d = distance(p);
+    if (d > most) most = d, where = p;
+  };
+  for (const Vec3& p : mesh.positions) ask(p);
+  for (const auto& [a, b, c] : mesh.triangles) ask((mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0);
+  return most;
+}
+
+TEST(Volume, WhereALevelSetIsZeroIsWithinAVoxelOfTheMeshBothWays) {
+  const fs::path path = temporary("zero.vdb");
+  const std::tuple<const char*, Field, double> cases[] = {
+      {"tree", testing::small_tree(), 0.015},     {"fork", testing::fork_field(), 0.05},
+      {"cut box", testing::cut_box_field(), 0.1}, {"contact", testing::contact_field(), 0.05},
+      {"chain", testing::chain_field(), 0.04},    {"nest", testing::random_field(9), 0.05},
+      {"coarse chain", testing::chain_field(), 0.1}};
+  for (const auto& [name, field, voxel] : cases) {
+    SCOPED_TRACE(name);
+    write(field, VolumeKind::kSdf, voxel, path);
+    const Mesh volume = testing::zero_set(path);
+    fs::remove(path);
+    ASSERT_GT(volume.triangles.size(), 500u);
+    PolygonizeOptions options;
+    options.tolerance = voxel / 5;
+    const Mesh mesh = polygonize(field, options, {})->mesh;
+    Vec3 at(0.0);
+    EXPECT_LT(farthest(volume, mesh, at) / voxel, 1) << "at " << at.x << ", " << at.y << ", " << at.z;
+    EXPECT_LT(farthest(mesh, volume, at) / voxel, 1) << "at " << at.x << ", " << at.y << ", " << at.z;
+  }
 }
 
 TEST(Volume, TheGridsAreTheSameForAnyNumberOfThreads) {
