@@ -86,6 +86,24 @@ TEST(Hermite, CrossingsOfAnyFieldAreWithinTheirEdgesAndNearlyAllOnTheSurface) {
   EXPECT_LT(static_cast<double>(off), 0.02 * static_cast<double>(found));
 }
 
+// Also where the field has kinks or falls to nothing within the edge.
+TEST(Hermite, NoCrossingIsFartherOffThanItsBound) {
+  std::size_t found = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Field field = testing::any_field(seed);
+    OnOctree on = coarse_octree(field, testing::longest_side(field) / 8, 3, {.radii = 1});
+    const auto edges = crossed_minimal_edges(on.tree, {}).value().edges;
+    const auto crossings = all_crossings(on, edges);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const double t = static_cast<double>(crossings[i].t), from_end = std::min(t, 1 - t);
+      ++found;
+      EXPECT_TRUE(on_the_surface(field, on.tree, edges[i], t, from_end < 1.1e-3 ? 1.1e-3 : 1.1e-4))
+          << "seed " << seed << ", edge " << i << ", f " << field.value(edge_point(on.tree, edges[i], t));
+    }
+  }
+  EXPECT_GT(found, 20000u);
+}
+
 TEST(Hermite, FindsTheEdgesListedAndLeavesTheOthersAlone) {
   OnOctree on = coarse_octree(testing::noise_field(8), 0.25, 4);
   Contour contour;
