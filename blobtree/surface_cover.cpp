@@ -66,6 +66,16 @@ double longest_edge(const Box& box) {
   return std::max({size.x, size.y, size.z});
 }
 
+/// As their Morton keys compare, without making these: by the axis in which they differ in the highest bit (Chan 2002).
+bool before_in_morton_order(const CellPlace& a, const CellPlace& b) {
+  int axis = 2;
+  for (const int other : {1, 0}) {
+    const std::uint32_t most = a[axis] ^ b[axis], differs = a[other] ^ b[other];
+    if (most < differs && most < (most ^ differs)) axis = other;
+  }
+  return a[axis] < b[axis];
+}
+
 /// Where in a cube a box is, outwards to the next 255th.
 std::array<std::uint8_t, 6> part_of(const Box& cube, const Box& box) {
   std::array<std::uint8_t, 6> part{};
@@ -144,12 +154,12 @@ std::optional<std::size_t> SurfaceCover::find(const Vec3& p) const {
   if (empty()) return std::nullopt;
   const std::optional<CellPlace> place = grid_.place_of(p);
   if (!place) return std::nullopt;
-  const std::uint64_t key = morton_key(*place);
-  const auto after = std::upper_bound(cells_.begin(), cells_.end(), key,
-                                      [](std::uint64_t k, const Cell& cell) { return k < morton_key(cell.place); });
+  const auto after = std::upper_bound(cells_.begin(), cells_.end(), *place,
+                                      [](const CellPlace& at, const Cell& cell) { return before_in_morton_order(at, cell.place); });
   if (after == cells_.begin()) return std::nullopt;
   const Cell& last = after[-1];   // cubes of an octree: either it holds p or none does
-  if (key - morton_key(last.place) >= std::uint64_t{1} << 3 * last.level) return std::nullopt;
+  for (int a = 0; a < 3; ++a)
+    if ((*place)[a] >> last.level != last.place[a] >> last.level) return std::nullopt;
   return static_cast<std::size_t>(after - 1 - cells_.begin());
 }
 
