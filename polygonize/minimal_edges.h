@@ -26,6 +26,15 @@ struct MinimalEdge {
 /// Quadrants in counter-clockwise order seen from the edge's high end.
 inline constexpr std::array<int, 4> kRing{0, 1, 3, 2};
 
+/// visit(leaf) for each leaf around an edge, once.
+template <class Visit>
+void for_each_leaf(const MinimalEdge& edge, Visit&& visit) {
+  for (int k = 0; k < 4; ++k) {
+    const std::uint32_t leaf = edge.leaves[kRing[k]];
+    if (leaf != edge.leaves[kRing[(k + 3) % 4]]) visit(leaf);
+  }
+}
+
 struct MinimalEdges {
   std::vector<MinimalEdge> edges;           ///< all of them, in an order that depends on the octree only
   /// Leaves with a crossed edge beside a leaf of less than half their size, or that the surface crosses one of their edges twice

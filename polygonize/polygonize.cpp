@@ -2,6 +2,7 @@
 
 #include "blobtree/input_error.h"
 #include "blobtree/progress_meter.h"
+#include "polygonize/contour_refiner.h"
 #include "polygonize/crowded_leaves.h"
 #include "polygonize/lattice.h"
 #include "polygonize/mesh_components.h"
@@ -113,7 +114,9 @@ std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& pl
     if (!refiner->split(std::move(leaves), run)) return std::nullopt;
   }
   report.relinked_faces = refiner->relinked_faces();
-  const Contour& whole = refiner->contour();
+  Contour whole = std::move(*refiner).take_contour();
+  SurfaceOctree made = std::move(*refiner).take_tree();
+  refiner.reset();
   std::vector<Vec3> positions;
   std::vector<std::optional<Split>> splits;
   for (std::uint32_t p = 0; p < whole.patches.size(); ++p)
@@ -123,9 +126,10 @@ std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& pl
     report.largest_error = std::max(report.largest_error, static_cast<double>(balance.error(e)));
     splits.push_back(balance.splits()[e]);
   }
-  Contour compact = compacted(whole);
+  balance = VertexBalance(plan.tolerance);
+  Contour compact = compacted(std::move(whole));
   progress.finish();
-  return Contoured{std::move(*refiner).take_tree(), std::move(compact), std::move(positions), std::move(splits)};
+  return Contoured{std::move(made), std::move(compact), std::move(positions), std::move(splits)};
 }
 
 void report_cells(const Contoured& made, PolygonizeReport& report) {

@@ -3,6 +3,7 @@
 #include "blobtree/choices.h"
 #include "blobtree/input_error.h"
 #include "polygonize/field_batch.h"
+#include "polygonize/marks.h"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace cambium {
 namespace {
@@ -18,6 +20,7 @@ namespace {
 // Float batches agree with the double field to 1e-4 where values are about 1; nearer to the surface than ten times that a
 // corner's sign is decided in double.
 constexpr float kDoubtfulValue = 1e-3f;
+constexpr std::size_t kLeavesPerTask = 128;
 constexpr int kMostCuts = 3;   // at once: 9^3 corners
 
 CellPlace offset(const CellPlace& place, int x, int y, int z, int level) {
@@ -279,15 +282,29 @@ class SurfaceOctree::Sampler {
   std::vector<Probe> probes_;
 };
 
-SurfaceOctree::Node SurfaceOctree::adopt(const Subtree& subtree, std::size_t nodes_at, std::size_t leaves_at) {
-  const auto moved = [&](Node node) -> Node {
-    if (node.is_void()) return node;
-    if (node.is_leaf()) return {static_cast<std::uint32_t>(node.leaf() + leaves_at) | Node::kLeafBit};
-    return {static_cast<std::uint32_t>(node.word + nodes_at)};
-  };
-  std::transform(subtree.nodes.begin(), subtree.nodes.end(), nodes_.begin() + static_cast<std::ptrdiff_t>(nodes_at), moved);
-  std::copy(subtree.leaves.begin(), subtree.leaves.end(), leaves_.begin() + static_cast<std::ptrdiff_t>(leaves_at));
-  return moved(subtree.root);
+// place(part, i, node): puts a subtree's root where it belongs; each is another's place.
+template <class Place>
+void SurfaceOctree::adopt(std::vector<Subtree>& subtrees, Place&& place) {
+  std::vector<std::size_t> nodes_at(subtrees.size() + 1, nodes_.size()), leaves_at(subtrees.size() + 1, leaves_.size());
+  for (std::size_t i = 0; i < subtrees.size(); ++i) {
+    nodes_at[i + 1] = nodes_at[i] + subtrees[i].nodes.size();
+    leaves_at[i + 1] = leaves_at[i] + subtrees[i].leaves.size();
+  }
+  require_room(leaves_at.back());
+  nodes_.resize(nodes_at.back());
+  leaves_.resize(leaves_at.back());
+  tbb::parallel_for(std::size_t{0}, subtrees.size(), [&](std::size_t part) {
+    Subtree& subtree = subtrees[part];
+    const auto moved = [&](Node node) -> Node {
+      if (node.is_void()) return node;
+      if (node.is_leaf()) return {static_cast<std::uint32_t>(node.leaf() + leaves_at[part]) | Node::kLeafBit};
+      return {static_cast<std::uint32_t>(node.word + nodes_at[part])};
+    };
+    std::transform(subtree.nodes.begin(), subtree.nodes.end(), nodes_.begin() + static_cast<std::ptrdiff_t>(nodes_at[part]), moved);
+    std::copy(subtree.leaves.begin(), subtree.leaves.end(), leaves_.begin() + static_cast<std::ptrdiff_t>(leaves_at[part]));
+    for (std::size_t i = 0; i < subtree.roots.size(); ++i) place(part, i, moved(subtree.roots[i]));
+    subtree = {};
+  });
 }
 
 // The cells [begin, end) of the cover are those inside one cube.
@@ -334,24 +351,14 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
     int wanted_level = level;
     while (wanted_level > 0 && std::ldexp(tree.grid_.cell, wanted_level) > wanted) --wanted_level;
     const int cuts = std::min(level - wanted_level, kMostCuts);
-    subtrees[i].root =
-        samplers.local().cut(tree, field, static_cast<std::uint32_t>(i), place, level, cuts, wanted_level, true, subtrees[i]);
+    subtrees[i].roots.push_back(
+        samplers.local().cut(tree, field, static_cast<std::uint32_t>(i), place, level, cuts, wanted_level, true, subtrees[i]));
     so_far += subtrees[i].leaves.size();
   });
   if (run.cancelled()) return std::nullopt;
   require_room(so_far);
-  std::vector<std::size_t> nodes_at(cover.size() + 1, 0), leaves_at(cover.size() + 1, 0);
-  for (std::size_t i = 0; i < cover.size(); ++i) {
-    nodes_at[i + 1] = nodes_at[i] + subtrees[i].nodes.size();
-    leaves_at[i + 1] = leaves_at[i] + subtrees[i].leaves.size();
-  }
-  tree.nodes_.resize(nodes_at.back());
-  tree.leaves_.resize(leaves_at.back());
   std::vector<Node> roots(cover.size());
-  tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
-    roots[i] = tree.adopt(subtrees[i], nodes_at[i], leaves_at[i]);
-    subtrees[i] = {};
-  });
+  tree.adopt(subtrees, [&](std::size_t cell, std::size_t, Node root) { roots[cell] = root; });
   tree.root_ = tree.join(cover, roots, 0, cover.size(), tree.grid_.levels);
   tree.cover_ = nullptr;
   return tree;
@@ -378,21 +385,25 @@ std::optional<std::uint32_t> SurfaceOctree::find(const CellPlace& place) const {
 
 // Cutting a leaf makes eight of the next level below, which may have no neighbour more than one level above them.
 std::vector<std::uint32_t> SurfaceOctree::with_larger_neighbours(std::vector<std::uint32_t> leaves) const {
-  std::vector<bool> listed(leaves_.size(), false);
-  for (const std::uint32_t leaf : leaves) listed[leaf] = true;
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const OctreeLeaf& leaf = leaves_[leaves[i]];
-    for (int direction = 0; direction < 27; ++direction) {
-      const std::array<int, 3> step{direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
-      const int axes = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
-      if (axes == 0 || axes == 3) continue;
-      CellPlace place = leaf.place;
-      for (int a = 0; a < 3; ++a) place[a] += static_cast<std::uint32_t>(step[a]) << leaf.level;   // wraps below zero: not found
-      const auto neighbour = find(place);
-      if (!neighbour || listed[*neighbour] || leaves_[*neighbour].level <= leaf.level) continue;
-      listed[*neighbour] = true;
-      leaves.push_back(*neighbour);
-    }
+  Marks listed(leaves_.size());
+  for (const std::uint32_t leaf : leaves) listed.add(leaf);
+  for (std::size_t known = 0; known < leaves.size();) {
+    const std::size_t first = std::exchange(known, leaves.size());
+    auto found = in_chunks<std::vector<std::uint32_t>>(known - first, kLeavesPerTask, [&](auto& part, std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i) {
+        const OctreeLeaf& leaf = leaves_[leaves[i]];
+        for (int direction = 0; direction < 27; ++direction) {
+          const std::array<int, 3> step{direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
+          const int axes = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
+          if (axes == 0 || axes == 3) continue;
+          CellPlace place = leaf.place;
+          for (int a = 0; a < 3; ++a) place[a] += static_cast<std::uint32_t>(step[a]) << leaf.level;   // wraps below zero: not found
+          const auto neighbour = find(place);
+          if (neighbour && leaves_[*neighbour].level > leaf.level && listed.add_new(*neighbour)) part.push_back(*neighbour);
+        }
+      }
+    });
+    append_parts(found, leaves);
   }
   std::sort(leaves.begin(), leaves.end());
   return leaves;
@@ -415,28 +426,20 @@ std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::
   std::erase_if(wanted, [&](std::uint32_t leaf) { return leaves_[leaf].level == 0; });
   std::vector<std::uint32_t> leaves = with_larger_neighbours(std::move(wanted));
   cover_ = &cover;
-  std::vector<Subtree> subtrees(leaves.size());
   tbb::enumerable_thread_specific<Sampler> samplers;
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t i) {
+  auto subtrees = in_chunks<Subtree>(leaves.size(), kLeavesPerTask, [&](Subtree& part, std::size_t begin, std::size_t end) {
     if (run.cancelled()) return;
-    const OctreeLeaf& leaf = leaves_[leaves[i]];
-    subtrees[i].root =
-        samplers.local().cut(*this, cover.cube_field(leaf.cell), leaf.cell, leaf.place, leaf.level, 1, leaf.level, false, subtrees[i]);
+    Sampler& sampler = samplers.local();
+    for (std::size_t i = begin; i < end; ++i) {
+      const OctreeLeaf& leaf = leaves_[leaves[i]];
+      part.roots.push_back(sampler.cut(*this, cover.cube_field(leaf.cell), leaf.cell, leaf.place, leaf.level, 1, leaf.level, false, part));
+    }
   });
   cover_ = nullptr;
   if (run.cancelled()) return {};
-  std::size_t nodes_at = nodes_.size(), leaves_at = leaves_.size(), nodes = nodes_at, count = leaves_at;
-  for (const Subtree& subtree : subtrees) nodes += subtree.nodes.size(), count += subtree.leaves.size();
-  require_room(count);
-  nodes_.resize(nodes);
-  leaves_.resize(count);
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const CellPlace place = leaves_[leaves[i]].place;
-    const Node made = adopt(subtrees[i], nodes_at, leaves_at);
-    *slot_of(place) = made;
-    nodes_at += subtrees[i].nodes.size();
-    leaves_at += subtrees[i].leaves.size();
-  }
+  std::vector<CellPlace> places(leaves.size());
+  for (std::size_t i = 0; i < leaves.size(); ++i) places[i] = leaves_[leaves[i]].place;
+  adopt(subtrees, [&](std::size_t part, std::size_t i, Node root) { *slot_of(places[part * kLeavesPerTask + i]) = root; });
   return leaves;
 }
 

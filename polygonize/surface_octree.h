@@ -81,14 +81,15 @@ class SurfaceOctree {
 
  private:
   struct Subtree {
-    std::vector<Node> nodes;         // children relative to the subtree's own, leaves likewise
+    std::vector<Node> nodes;         // children relative to these, leaves likewise
     std::vector<OctreeLeaf> leaves;
-    Node root;
+    std::vector<Node> roots;         // of one or several trees
   };
   class Sampler;
   std::vector<std::uint32_t> with_larger_neighbours(std::vector<std::uint32_t> leaves) const;
   Node* slot_of(const CellPlace& place);
-  Node adopt(const Subtree& subtree, std::size_t nodes_at, std::size_t leaves_at);
+  template <class Place>
+  void adopt(std::vector<Subtree>& subtrees, Place&& place);
   Node join(const SurfaceCover& cover, const std::vector<Node>& roots, std::size_t begin, std::size_t end, int level);
 
   const SurfaceCover* cover_ = nullptr;   // while it is being sampled

@@ -1,10 +1,7 @@
 #include "polygonize/surface_patches.h"
 
 #include "polygonize/cube_edges.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
+#include "polygonize/ordered_chunks.h"
 
 #include <algorithm>
 #include <unordered_map>
@@ -54,9 +51,7 @@ class LeafTracer {
   /// Appends the cycles' edges in order to `order`, and how many each has to `lengths`.
   void trace(std::uint32_t leaf, std::span<const std::uint32_t> edges, std::vector<std::uint32_t>& order,
              std::vector<std::uint32_t>& lengths) {
-    incidents_.clear();
-    for (const std::uint32_t id : edges) incidents_.push_back(incident_of(edges_[id], id, leaf));
-    link(leaf);
+    link(leaf, edges);
     for (std::uint32_t i = 0; i < incidents_.size(); ++i) {
       if (incidents_[i].visited) continue;
       std::uint32_t length = 0, at = i, from = kNone;
@@ -72,9 +67,10 @@ class LeafTracer {
     }
   }
 
- private:
-  // Two crossings of one face are joined by the surface's line across it.
-  void link(std::uint32_t leaf) {
+  /// Two crossings of one face are joined by the surface's line across it.
+  void link(std::uint32_t leaf, std::span<const std::uint32_t> edges) {
+    incidents_.clear();
+    for (const std::uint32_t id : edges) incidents_.push_back(incident_of(edges_[id], id, leaf));
     sides_.clear();
     for (std::uint32_t i = 0; i < incidents_.size(); ++i)
       for (int s = 0; s < 2; ++s) sides_.push_back({incidents_[i].across[s], i});
@@ -91,6 +87,7 @@ class LeafTracer {
     }
   }
 
+ private:
   void join(std::uint32_t i, std::uint32_t j) {
     auto& a = incidents_[i].next;
     auto& b = incidents_[j].next;
@@ -185,14 +182,6 @@ class LeafTracer {
   std::vector<Around> around_;
 };
 
-template <class Visit>
-void for_each_leaf(const MinimalEdge& edge, Visit&& visit) {
-  for (int k = 0; k < 4; ++k) {
-    const std::uint32_t leaf = edge.leaves[kRing[k]];
-    if (leaf != edge.leaves[kRing[(k + 3) % 4]]) visit(leaf);
-  }
-}
-
 struct Cycles {
   std::vector<std::uint32_t> order, lengths;
   std::size_t cycle_of(std::uint32_t edge) const {
@@ -242,33 +231,18 @@ struct Traced {
 
 }  // namespace
 
-LeafEdges edges_around_leaves(std::size_t leaf_count, const std::vector<MinimalEdge>& edges) {
-  LeafEdges result;
-  std::vector<std::uint32_t> at(leaf_count + 1, 0);
-  for (const MinimalEdge& edge : edges) for_each_leaf(edge, [&](std::uint32_t leaf) { ++at[leaf + 1]; });
-  for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
-    if (at[leaf + 1] > 0) {
-      result.leaves.push_back(leaf);
-      result.first.push_back(result.first.back() + at[leaf + 1]);
-    }
-    at[leaf + 1] += at[leaf];
-  }
-  result.edges.resize(result.first.back());
-  for (std::uint32_t e = 0; e < edges.size(); ++e) for_each_leaf(edges[e], [&](std::uint32_t leaf) { result.edges[at[leaf]++] = e; });
-  return result;
-}
-
 std::vector<std::uint32_t> leaves_across_many_lines(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges,
                                                     const LeafEdges& around) {
+  auto parts = in_chunks<std::vector<std::uint32_t>>(around.leaves.size(), kLeavesPerTask, [&](auto& part, std::size_t begin, std::size_t end) {
+    LeafTracer tracer(tree, edges);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (around.of(i).size() >= 4) tracer.link(around.leaves[i], around.of(i));   // two lines across one face have four ends
+    }
+    for (const ManyLines& face : tracer.faces)
+      if (!lists(around, face.other)) part.push_back(face.other);
+  });
   std::vector<std::uint32_t> found;
-  LeafTracer tracer(tree, edges);
-  for (std::size_t i = 0; i < around.leaves.size(); ++i) {
-    if (around.of(i).size() < 4) continue;   // two lines across one face have four ends
-    Cycles cycles;
-    tracer.trace(around.leaves[i], around.of(i), cycles.order, cycles.lengths);
-  }
-  for (const ManyLines& face : tracer.faces)
-    if (!lists(around, face.other)) found.push_back(face.other);
+  append_parts(parts, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
@@ -276,11 +250,9 @@ std::vector<std::uint32_t> leaves_across_many_lines(const SurfaceOctree& tree, c
 
 LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const LeafEdges& around,
                         RelinkedFaces& relinked) {
-  std::vector<Traced> traced((around.leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask);
-  tbb::parallel_for(std::size_t{0}, traced.size(), [&](std::size_t task) {
-    Traced& out = traced[task];
+  auto traced = in_chunks<Traced>(around.leaves.size(), kLeavesPerTask, [&](Traced& out, std::size_t begin, std::size_t end) {
     LeafTracer tracer(tree, edges);
-    for (std::size_t i = task * kLeavesPerTask; i < std::min(around.leaves.size(), (task + 1) * kLeavesPerTask); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       const std::size_t before = out.cycles.lengths.size();
       tracer.trace(around.leaves[i], around.of(i), out.cycles.order, out.cycles.lengths);
       out.counts.push_back(static_cast<std::uint32_t>(out.cycles.lengths.size() - before));

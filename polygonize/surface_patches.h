@@ -14,7 +14,7 @@ namespace cambium {
 
 inline constexpr std::uint32_t kNoPatch = 0xffffffffu;
 
-/// Leaves, ascending, and the crossed minimal edges around each.
+/// Leaves, ascending, and the crossed minimal edges around each, ascending.
 struct LeafEdges {
   std::vector<std::uint32_t> leaves;
   std::vector<std::uint32_t> first{0};      ///< one more than leaves
@@ -22,9 +22,6 @@ struct LeafEdges {
 
   std::span<const std::uint32_t> of(std::size_t i) const { return {edges.data() + first[i], first[i + 1] - first[i]}; }
 };
-
-/// Of all leaves that have any. Cost: linear.
-LeafEdges edges_around_leaves(std::size_t leaf_count, const std::vector<MinimalEdge>& edges);
 
 /// By two leaves that a face lies between: the lines in which the surface crosses it (pairs of edges), where they are not those
 /// that the corners' rule gives.

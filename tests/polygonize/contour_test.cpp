@@ -68,11 +68,11 @@ TEST(ContourRefiner, KeepsWhatBeginningAnewWouldFind) {
       }
     }
     EXPECT_TRUE(crossed_minimal_edges(refiner.tree(), {})->to_split.empty());
-    const Contour kept = compacted(refiner.contour());
+    const Contour kept = compacted(Contour(refiner.contour()));
     ContourRefiner fresh = ContourRefiner::begin(refiner.tree(), on.cover, {}).value();
     ASSERT_EQ(fresh.tree().leaves().size(), refiner.tree().leaves().size()) << "something had to be cut";
     ASSERT_TRUE(fresh.place({}));
-    const Described now = described(refiner.tree(), kept), anew = described(fresh.tree(), compacted(fresh.contour()));
+    const Described now = described(refiner.tree(), kept), anew = described(fresh.tree(), compacted(Contour(fresh.contour())));
     ASSERT_EQ(now.crossings.size(), anew.crossings.size());
     for (auto a = now.crossings.begin(), b = anew.crossings.begin(); a != now.crossings.end(); ++a, ++b) {
       ASSERT_EQ(a->first, b->first);
@@ -103,7 +103,7 @@ TEST(ContourRefiner, StaysAManifoldFromRoundToRoundWhateverTheSignsAre) {
         ASSERT_TRUE(refiner.split(some_leaves(refiner.tree(), draws, 0.03), {}));
       }
       ASSERT_TRUE(refiner.place({}));
-      const Contour contour = compacted(refiner.contour());
+      const Contour contour = compacted(Contour(refiner.contour()));
       Mesh mesh;
       for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
         const Ring ring = ring_of(contour.edges[i], contour.patch_of_quadrant[i]);

@@ -1,6 +1,7 @@
 // Octrees that need not fit their field, what is contoured on them, and the questions that can be put to that by brute force.
 #pragma once
 
+#include "polygonize/contour_refiner.h"
 #include "polygonize/patch_polygons.h"
 #include "polygonize/polygon_ring.h"
 #include "tests/blobtree/random_blobtrees.h"
@@ -73,7 +74,7 @@ inline Contour contour_on(OnOctree& on, std::size_t* relinked_faces = nullptr) {
   refiner.place({});
   on.tree = refiner.tree();
   if (relinked_faces) *relinked_faces += refiner.relinked_faces();
-  return compacted(refiner.contour());
+  return compacted(Contour(refiner.contour()));
 }
 
 inline std::vector<Vec3> positions_of(const Contour& contour) {
