@@ -19,6 +19,12 @@ struct CellGrid {
   std::array<std::int64_t, 3> first{};    ///< the low corner of cell (0, 0, 0) is cell * first
   int levels = 0;                         ///< the root cube has 2^levels cells along its edge
 
+  /// The low corner of a level-0 cell, metres.
+  Vec3 corner(const CellPlace& place) const {
+    Vec3 p;
+    for (int a = 0; a < 3; ++a) p[a] = cell * static_cast<double>(first[a] + static_cast<std::int64_t>(place[a]));
+    return p;
+  }
   /// The cube of 2^level cells along its edge whose lowest cell is `place`. Neighbours share corners to the last bit.
   Box box(const CellPlace& place, int level) const {
     Box b;

@@ -151,15 +151,17 @@ class CoverRun : public CellRun {
 Box SurfaceCover::cube(std::size_t cell) const { return grid_.box(cells_[cell].place, cells_[cell].level); }
 
 std::optional<std::size_t> SurfaceCover::find(const Vec3& p) const {
-  if (empty()) return std::nullopt;
   const std::optional<CellPlace> place = grid_.place_of(p);
-  if (!place) return std::nullopt;
-  const auto after = std::upper_bound(cells_.begin(), cells_.end(), *place,
+  return place ? find(*place) : std::nullopt;
+}
+
+std::optional<std::size_t> SurfaceCover::find(const CellPlace& place) const {
+  const auto after = std::upper_bound(cells_.begin(), cells_.end(), place,
                                       [](const CellPlace& at, const Cell& cell) { return before_in_morton_order(at, cell.place); });
   if (after == cells_.begin()) return std::nullopt;
-  const Cell& last = after[-1];   // cubes of an octree: either it holds p or none does
+  const Cell& last = after[-1];   // cubes of an octree: either it holds the place or none does
   for (int a = 0; a < 3; ++a)
-    if ((*place)[a] >> last.level != last.place[a] >> last.level) return std::nullopt;
+    if (place[a] >> last.level != last.place[a] >> last.level) return std::nullopt;
   return static_cast<std::size_t>(after - 1 - cells_.begin());
 }
 

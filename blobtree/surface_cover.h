@@ -44,6 +44,8 @@ class SurfaceCover {
   /// kIso. p may still be outside box(cell): there no primitive of the cell has support, and the whole field is 0.
   /// Cost: a binary search.
   std::optional<std::size_t> find(const Vec3& p) const;
+  /// Of a level-0 cell of the grid. Places beyond the root cube have none.
+  std::optional<std::size_t> find(const CellPlace& place) const;
   /// Exact inside box(cell). Valid while the cover lives. Cheap; no allocation.
   PrunedField field(std::size_t cell) const;
   /// The cube that the cell is of its grid, and a field exact in all of it.

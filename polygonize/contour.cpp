@@ -37,19 +37,6 @@ std::uint32_t patch_across(const Contour& contour, const CreaseExit& exit) {
 
 }  // namespace
 
-Vec3 edge_point(const SurfaceOctree& tree, const MinimalEdge& edge, double t) {
-  const OctreeLeaf& owner = tree.leaves()[edge.owner()];
-  const int corner = edge_low_corner(edge.edge_of_owner());
-  CellPlace place = owner.place;
-  for (int a = 0; a < 3; ++a) place[a] += static_cast<std::uint32_t>(corner >> a & 1) << owner.level;
-  Vec3 p = tree.point(place);
-  if (t > 0) {
-    place[edge.axis] += 1u << owner.level;
-    p[edge.axis] += t * (tree.point(place)[edge.axis] - p[edge.axis]);
-  }
-  return p;
-}
-
 std::vector<std::array<std::uint32_t, 2>> crease_edges(const Contour& contour) {
   std::vector<std::array<std::uint32_t, 2>> creases;
   for (const CreaseExit& exit : contour.exits) {

@@ -57,7 +57,18 @@ Contour compacted(Contour&& contour);
 std::vector<std::array<std::uint32_t, 2>> crease_edges(const Contour& contour);
 
 /// World point at t along a minimal edge.
-Vec3 edge_point(const SurfaceOctree& tree, const MinimalEdge& edge, double t);
+inline Vec3 edge_point(const SurfaceOctree& tree, const MinimalEdge& edge, double t) {
+  const OctreeLeaf& owner = tree.leaves()[edge.owner()];
+  const int corner = edge_low_corner(edge.edge_of_owner());
+  CellPlace place = owner.place;
+  for (int a = 0; a < 3; ++a) place[a] += static_cast<std::uint32_t>(corner >> a & 1) << owner.level;
+  Vec3 p = tree.point(place);
+  if (t > 0) {
+    place[edge.axis] += 1u << owner.level;
+    p[edge.axis] += t * (tree.point(place)[edge.axis] - p[edge.axis]);
+  }
+  return p;
+}
 inline Vec3 crossing_point(const SurfaceOctree& tree, const Contour& contour, std::uint32_t edge) {
   return edge_point(tree, contour.edges[edge], static_cast<double>(contour.crossings[edge].t));
 }

@@ -186,7 +186,8 @@ LeafEdges ContourRefiner::around_of(std::vector<std::uint32_t> leaves, std::size
 // Puts new cycles in place of the old patches of what was touched. Returns leaves that must be cut.
 std::vector<std::uint32_t> ContourRefiner::trace(std::size_t first_added) {
   LeafEdges around = around_of(touched_.ascending(), first_added);
-  std::vector<std::uint32_t> across = leaves_across_many_lines(tree_, contour_.edges, around);
+  std::vector<std::uint32_t> across;
+  if (first_added > 0) across = leaves_across_many_lines(tree_, contour_.edges, around);   // else all are listed
   if (!across.empty()) {
     while (!across.empty()) {
       for (const std::uint32_t leaf : across) touched_.add(leaf);

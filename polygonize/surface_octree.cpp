@@ -64,7 +64,7 @@ class SurfaceOctree::Sampler {
   Node cut(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level, int cuts,
            int wanted, bool merge, Subtree& subtree) {
     merge_ = merge, wanted_ = wanted;
-    sample(tree, field, place, level - cuts, cuts);
+    sample(tree, field, cell, place, level - cuts, cuts);
     // Parts in the order of the octree: the children of each node together.
     std::vector<Unfinished> unfinished;
     Node root = descend(cell, place, level, {0, 0, 0}, cuts, kRoot, subtree, unfinished);
@@ -88,7 +88,7 @@ class SurfaceOctree::Sampler {
 
   int at(int x, int y, int z) const { return x + side_ * (y + side_ * z); }
 
-  void sample(const SurfaceOctree& tree, const PrunedField& field, const CellPlace& place, int level, int cuts) {
+  void sample(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level, int cuts) {
     parts_ = 1 << cuts;
     side_ = parts_ + 1;
     const std::size_t n = static_cast<std::size_t>(side_ * side_ * side_);
@@ -116,46 +116,56 @@ class SurfaceOctree::Sampler {
           }
           inside_[i] = f_[i] >= 0;
         }
-    fill_cracks(tree, field, place, level);
+    fill_cracks(tree, field, cell, place, level);
     find_suspects(field, static_cast<float>(step));
   }
 
   // An outside corner between sheets that are closer than narrow() along an axis becomes an inside one. Every cell that has the
-  // corner asks the same field, that of the cover's cell it is in, also a little beyond it.
-  void fill_cracks(const SurfaceOctree& tree, const PrunedField& field, const CellPlace& place, int level) {
+  // corner asks the same field, that of the cover's cell it is in (low faces included), also a little beyond it.
+  void fill_cracks(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level) {
     const double width = tree.narrow();
     if (!(width > 0)) return;
-    // Where nothing chooses there are no cracks, but corners on high faces may be those of a cell where something does.
-    const bool smooth = ChoiceEvaluator::smooth(field);
+    const std::array<std::array<std::uint32_t, 2>, 3> reach_of_cell = tree.places_of(cell);
+    const bool smooth = !may_be_cracked(field, width);
     for (int z = 0, i = 0; z < side_; ++z)
       for (int y = 0; y < side_; ++y)
         for (int x = 0; x < side_; ++x, ++i) {
           if (inside_[i] || f_[i] < -kFarthest - kDoubtfulValue) continue;
-          if (smooth && x < parts_ && y < parts_ && z < parts_) continue;
-          const bool within = x > 0 && y > 0 && z > 0 && x < parts_ && y < parts_ && z < parts_;
-          const Vec3 p = tree.point(offset(place, x, y, z, level));
-          PrunedField home = field;
-          if (!within) {
-            const auto cell = tree.cover_->find(p);
-            if (!cell) continue;
-            home = tree.cover_->cube_field(*cell);
+          const CellPlace corner = offset(place, x, y, z, level);
+          bool is_own = true, on_face = false;
+          for (int a = 0; a < 3; ++a) {
+            is_own = is_own && corner[a] != reach_of_cell[a][1];
+            on_face = on_face || corner[a] == reach_of_cell[a][0] || corner[a] == reach_of_cell[a][1];
           }
-          if (ChoiceEvaluator::smooth(home) || width > home.smallest_radius()) continue;
+          if (is_own && smooth) continue;
+          PrunedField home = field;
+          if (!is_own) {   // here nothing may choose and there something may
+            const auto found = tree.cell_at(corner);
+            if (!found) continue;
+            home = tree.cover_->cube_field(*found);
+            if (!may_be_cracked(home, width)) continue;
+          }
           // No field of these radii falls by more over that way, but for scars.
           const double reach = std::min(static_cast<double>(kFarthest), 2 * width / home.smallest_radius());
           if (static_cast<double>(f_[i]) < -reach - static_cast<double>(kDoubtfulValue)) continue;
+          const Vec3 p = tree.point(corner);
           if (evaluator_.value(home, p) - kIso < -reach || !in_crack(home, p, width)) continue;
-          if (!within && beside_nothing(tree, p)) continue;
+          if (on_face && beside_nothing(tree, corner)) continue;
           inside_[i] = 1;
           f_[i] = 0;
         }
   }
 
+  // Where nothing chooses there are no cracks. Sheets thicker than `width` reach over it with their support: both are active
+  // wherever a crack of theirs touches.
+  static bool may_be_cracked(const PrunedField& field, double width) {
+    return !ChoiceEvaluator::smooth(field) && width <= field.smallest_radius();
+  }
+
   // No surface may come to lie against a place that the cover has no cell for.
-  static bool beside_nothing(const SurfaceOctree& tree, const Vec3& p) {
-    for (int c = 0; c < 8; ++c) {
-      const Vec3 away(c & 1 ? 1 : -1, c & 2 ? 1 : -1, c & 4 ? 1 : -1);
-      if (!tree.cover_->find(p + 0.5 * tree.grid_.cell * away)) return true;
+  static bool beside_nothing(const SurfaceOctree& tree, const CellPlace& corner) {
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      if (!tree.cell_at({corner[0] - (c & 1), corner[1] - (c >> 1 & 1), corner[2] - (c >> 2)})) return true;   // wraps: nothing there
     }
     return false;
   }
@@ -362,6 +372,19 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
   tree.root_ = tree.join(cover, roots, 0, cover.size(), tree.grid_.levels);
   tree.cover_ = nullptr;
   return tree;
+}
+
+std::array<std::array<std::uint32_t, 2>, 3> SurfaceOctree::places_of(std::size_t cell) const {
+  std::array<std::array<std::uint32_t, 2>, 3> places;
+  for (int a = 0; a < 3; ++a) {
+    const std::uint32_t low = cover_->place(cell)[a] << finer_;
+    places[a] = {low, low + (1u << (cover_->level(cell) + finer_))};
+  }
+  return places;
+}
+
+std::optional<std::size_t> SurfaceOctree::cell_at(const CellPlace& place) const {
+  return cover_->find(CellPlace{place[0] >> finer_, place[1] >> finer_, place[2] >> finer_});
 }
 
 SurfaceOctree::Node* SurfaceOctree::slot_of(const CellPlace& place) {

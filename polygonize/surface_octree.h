@@ -59,7 +59,7 @@ class SurfaceOctree {
   /// edge of the smallest leaves that show gaps, so every wider gap has a corner in it and cracks end in a clean floor.
   double narrow() const;
   double edge(const OctreeLeaf& leaf) const { return grid_.cell * static_cast<double>(std::uint64_t{1} << leaf.level); }
-  Vec3 point(const CellPlace& place) const { return grid_.box(place, 0).lo; }
+  Vec3 point(const CellPlace& place) const { return grid_.corner(place); }
   Box box(const OctreeLeaf& leaf) const { return grid_.box(leaf.place, leaf.level); }
 
   /// The leaf that holds the unit cube at `place`, or none.
@@ -87,6 +87,8 @@ class SurfaceOctree {
   };
   class Sampler;
   std::vector<std::uint32_t> with_larger_neighbours(std::vector<std::uint32_t> leaves) const;
+  std::array<std::array<std::uint32_t, 2>, 3> places_of(std::size_t cell) const;   // of the cover, in units: low, high
+  std::optional<std::size_t> cell_at(const CellPlace& place) const;
   Node* slot_of(const CellPlace& place);
   template <class Place>
   void adopt(std::vector<Subtree>& subtrees, Place&& place);
