@@ -51,7 +51,7 @@ void declare(CLI::App& app, CommandLine& line) {
   CLI::Option* voxel = mesh->add_option("--voxel", line.voxel, "edge of a cell, such as 2mm");
   mesh->add_option("--tolerance", line.tolerance, "largest distance from the surface, such as 0.5mm")->excludes(voxel);
   mesh->add_option("--min-sides", line.min_sides, "around the thinnest twig, at least: 4 to 64; 6 by default")->check(CLI::Range(4, 64));
-  mesh->add_flag("--preview", line.preview, "a first look: 16 times the tolerance, four sides to a twig");
+  mesh->add_flag("--preview", line.preview, "a first look: 16 times the tolerance, thin twigs thickened, no occlusion");
   mesh->add_option("--max-triangles", line.max_triangles, "at most so many, such as 500k");
   mesh->add_option("--lod", line.lod,
                    "levels of detail, each of at most so many triangles, such as 1200k,50k,5k: all in one .glb, else a file each "

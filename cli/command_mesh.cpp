@@ -19,6 +19,8 @@
 namespace cambium {
 namespace {
 
+constexpr double kThinnestOfPreviews = 1.0 / 1250;   // of a tree's diagonal: cells follow the thinnest twigs, of which there is most
+
 /// What the recipe and the flags ask for, checked before any work.
 struct MeshRequest {
   std::string format;   ///< extension of the output, with its dot
@@ -148,7 +150,8 @@ Outcome run_mesh(Job& job) {
   std::deque<OutputFile> outputs = make_outputs(job.line.output, request);
   MeshLook look = mesh_look(job.recipe, request.format == ".glb");
   job.warnings.insert(job.warnings.end(), look.warnings.begin(), look.warnings.end());
-  const auto built = build_tree(job);
+  const bool preview = request.mesh.polygonize.preview;
+  const auto built = build_tree(job, preview ? kThinnestOfPreviews : 0);
   if (!built || job.run.cancelled()) return Outcome::kInterrupted;
   const Field field = compile_field(job, built->tree);
   auto made = polygonize_field(job, field, request.mesh.polygonize);
@@ -165,7 +168,7 @@ Outcome run_mesh(Job& job) {
     options.branches = built->branches;
     options.aspect = look.aspect;
     options.color = vertex_colors(look.bark);
-    if (request.mesh.occlusion && (request.format == ".glb" || request.format == ".ply")) options.occlusion.emplace();
+    if (request.mesh.occlusion && !preview && (request.format == ".glb" || request.format == ".ply")) options.occlusion.emplace();
     auto carried = make_attributes(job, *levels, field, options);
     if (!carried) return Outcome::kInterrupted;
     attributes = std::move(*carried);

@@ -105,13 +105,20 @@ std::optional<Skeleton> grow_skeleton(Job& job) {
   return walk_turtle(job, *string, system);
 }
 
-std::optional<BuiltTree> build_tree(Job& job) {
+std::optional<BuiltTree> build_tree(Job& job, double thinnest) {
   if (job.source_kind == InputKind::kBlobTree) {
     const StageTimer timer(job.figures, "read");
     return BuiltTree{read_blobtree(job.source), std::nullopt, {}};
   }
   const auto skeleton = grow_skeleton(job);
   if (!skeleton || job.run.cancelled()) return std::nullopt;
+  if (thinnest > 0) {
+    Box bounds;
+    for (const SkeletonNode& node : skeleton->nodes) bounds.extend(node.position);
+    std::optional<double>& least = job.recipe.surface.conditioning.min_radius;
+    const double radius = bounds.empty() ? 0 : thinnest * glm::length(bounds.size());
+    if (radius > least.value_or(0)) least = radius;
+  }
   const StageTimer timer(job.figures, "surface");
   Surfaced surfaced = surface_with_places(job, *skeleton);
   return BuiltTree{std::move(surfaced.tree), std::move(surfaced.report), std::move(surfaced.branches)};

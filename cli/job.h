@@ -47,7 +47,8 @@ struct BuiltTree {
   std::optional<SurfaceReport> report;
   std::vector<BranchInfo> branches;              ///< by id; empty if it was read from a file
 };
-std::optional<BuiltTree> build_tree(Job& job);
+/// thinnest: twigs of a skeleton are thickened to this part of its diagonal, for what is only a first look.
+std::optional<BuiltTree> build_tree(Job& job, double thinnest = 0);
 
 Field compile_field(Job& job, const BlobTree& tree);
 /// build_tree and compile_field.

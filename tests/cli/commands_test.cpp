@@ -135,6 +135,24 @@ TEST_F(Commands, MoreSidesAreMoreTrianglesAndAPreviewIsFewer) {
   EXPECT_EQ(triangles({"--set", "mesh.min_sides=32"}), triangles({"--min-sides", "32"}));
 }
 
+// A preview keeps every twig, so it draws them no thinner than its cells can be few.
+TEST_F(Commands, APreviewThickensTwigsAndHasNoOcclusion) {
+  folder_.write("twig.skel.json", R"({"format":"cambium-skeleton","version":1,"nodes":[
+{"position":[0,0,0],"radius":0.002,"parent":-1},
+{"position":[0,0,5],"radius":0.002,"parent":0}]})");
+  const auto mesh = [&](const std::string& output, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"mesh", at("twig.skel.json"), "-o", at(output), "--tolerance", "0.5mm"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return figures(arguments);
+  };
+  const double usual = mesh("a.ply", {})["smallest_cell"].get<double>();
+  const double preview = mesh("b.ply", {"--preview"})["smallest_cell"].get<double>();
+  EXPECT_LE(usual, 1.1 * 0.002);
+  EXPECT_GT(preview, 1.9 * usual);   // 5 m / 1250 is twice the radius
+  EXPECT_NE(folder_.read("a.ply").find("occlusion"), std::string::npos);
+  EXPECT_EQ(folder_.read("b.ply").find("occlusion"), std::string::npos);
+}
+
 TEST_F(Commands, LevelsOfDetailGoIntoOneGlbAndOneFileEachOtherwise) {
   const Json glb = figures({"mesh", at("tiny.tree.toml"), "-o", at("a.glb"), "--lod", "2k,500,100"});
   ASSERT_EQ(glb["levels"].size(), 3u);
