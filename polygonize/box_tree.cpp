@@ -16,7 +16,7 @@ constexpr std::size_t kTaskLeaves = 256;   // fewer are not worth a task of thei
 
 }  // namespace
 
-BoxTree::BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box_of) {
+BoxTree::BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box_of, const RunOptions& run) {
   if (count == 0) return;
   leaves_ = std::bit_ceil((count + kLeaf - 1) / kLeaf);
   nodes_.resize(2 * leaves_ - 1);
@@ -31,7 +31,8 @@ BoxTree::BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box
       entries[i].index = static_cast<std::uint32_t>(i);
     }
   });
-  halve(entries, 0, leaves_);
+  halve(entries, 0, leaves_, run);
+  if (run.cancelled()) return;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       order_[i] = entries[i].index;
@@ -47,8 +48,8 @@ BoxTree::BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box
   }
 }
 
-void BoxTree::halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::size_t end_leaf) {
-  if (end_leaf - begin_leaf <= 1) return;
+void BoxTree::halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::size_t end_leaf, const RunOptions& run) {
+  if (end_leaf - begin_leaf <= 1 || (end_leaf - begin_leaf > kTaskLeaves && run.cancelled())) return;
   const std::size_t middle_leaf = (begin_leaf + end_leaf) / 2;
   const auto at = [&](std::size_t leaf) { return entries.begin() + static_cast<std::ptrdiff_t>(first(leaf)); };
   const auto begin = at(begin_leaf), middle = at(middle_leaf), end = at(end_leaf);
@@ -67,8 +68,8 @@ void BoxTree::halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::si
       return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis] : a.index < b.index;
     });
   }
-  const auto low = [&] { halve(entries, begin_leaf, middle_leaf); };
-  const auto high = [&] { halve(entries, middle_leaf, end_leaf); };
+  const auto low = [&] { halve(entries, begin_leaf, middle_leaf, run); };
+  const auto high = [&] { halve(entries, middle_leaf, end_leaf, run); };
   if (end_leaf - begin_leaf > kTaskLeaves) {
     tbb::parallel_invoke(low, high);
   } else {

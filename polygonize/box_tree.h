@@ -3,6 +3,7 @@
 #pragma once
 
 #include "blobtree/float_box.h"
+#include "blobtree/run_options.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,8 @@ class BoxTree {
   BoxTree() = default;
   /// box_of(i) for i < count is called once each, from many threads; finite boxes only. In the current arena; the same tree at any
   /// thread count. Cost: count log count, a fifth of a microsecond a box.
-  BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box_of);
+  /// Cancelled, it is of no use.
+  BoxTree(std::size_t count, const std::function<Box(std::uint32_t)>& box_of, const RunOptions& run = {});
 
   std::size_t size() const { return order_.size(); }
   std::size_t leaf_count() const { return leaves_; }
@@ -43,7 +45,7 @@ class BoxTree {
     glm::vec3 center;
     std::uint32_t index;
   };
-  void halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::size_t end_leaf);
+  void halve(std::vector<Entry>& entries, std::size_t begin_leaf, std::size_t end_leaf, const RunOptions& run);
   std::size_t first(std::size_t leaf) const { return order_.size() * leaf / leaves_; }
 
   // A heap: node n has children 2n + 1 and 2n + 2; the last `leaves_` of them, a power of two, are the leaves.

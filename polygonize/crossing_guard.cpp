@@ -3,20 +3,31 @@
 #include "polygonize/box_tree.h"
 #include "polygonize/triangle_contact.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 namespace cambium {
 namespace {
 
+constexpr std::uint32_t kGone = 0xffffffffu;
 constexpr double kFacing = 0.1;   // cosine: what faces a direction, rounding included
 
 }  // namespace
 
-CrossingGuard::CrossingGuard(const std::vector<Vec3>& positions, std::vector<Corners> triangles)
-    : positions_(positions), triangles_(std::move(triangles)), normals_(triangles_.size()), gone_(triangles_.size(), 0),
-      live_(triangles_.size()), slots_(triangles_.size()) {
-  for (std::size_t i = 0; i < triangles_.size(); ++i) normals_[i] = glm::vec3(glm::normalize(area_of(triangles_[i])));
-  build();
+CrossingGuard::CrossingGuard(const std::vector<Vec3>& positions, const std::vector<Corners>& triangles, const RunOptions& run)
+    : positions_(positions), run_(run), live_(triangles.size()), slot_of_(triangles.size()) {
+  std::vector<Slot> slots(triangles.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, slots.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end() && !run.cancelled(); ++i) {
+      const Corners& c = triangles[i];
+      slots[i] = {bounds_of(c), glm::vec3(glm::normalize(area_of(c))), static_cast<std::uint32_t>(i), c};
+    }
+  });
+  build(std::move(slots));
 }
 
 FloatBox CrossingGuard::bounds_of(const Corners& corners) const {
@@ -29,30 +40,29 @@ Vec3 CrossingGuard::area_of(const Corners& c) const {
   return glm::cross(positions_[c[1]] - positions_[c[0]], positions_[c[2]] - positions_[c[0]]);
 }
 
-void CrossingGuard::build() {
+void CrossingGuard::build(std::vector<Slot> triangles) {
   built_ = live_;
-  std::vector<std::uint32_t> live;
-  live.reserve(live_);
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i)
-    if (!gone_[i]) live.push_back(i);
-  const BoxTree tree(live.size(), [&](std::uint32_t i) {
+  const BoxTree tree(triangles.size(), [&](std::uint32_t i) {
     Box box;
-    for (const std::uint32_t v : triangles_[live[i]]) box.extend(positions_[v]);
+    for (const std::uint32_t v : triangles[i].corners) box.extend(positions_[v]);
     return box;
-  });
+  }, run_);
+  if (run_.cancelled()) return;
+  slots_.resize(triangles.size());
   leaves_ = tree.leaf_count();
   if (leaves_ == 0) return;
-  order_.clear();
-  boxes_.clear();
+  depth_ = std::countr_zero(leaves_);
   nodes_.assign(2 * leaves_ - 1, FloatBox());
-  for (std::size_t leaf = 0; leaf < leaves_; ++leaf) {
-    for (const std::uint32_t* i = tree.leaf_begin(leaf); i != tree.leaf_end(leaf); ++i) {
-      slots_[live[*i]] = static_cast<std::uint32_t>(order_.size());
-      order_.push_back(live[*i]);
-      boxes_.push_back(bounds_of(triangles_[live[*i]]));
-      nodes_[leaves_ - 1 + leaf].extend(boxes_.back());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves_, 512), [&](const auto& range) {
+    for (std::size_t leaf = range.begin(); leaf < range.end(); ++leaf) {
+      std::size_t slot = first(leaf);
+      for (const std::uint32_t* i = tree.leaf_begin(leaf); i != tree.leaf_end(leaf); ++i, ++slot) {
+        slots_[slot] = triangles[*i];
+        slot_of_[slots_[slot].triangle] = static_cast<std::uint32_t>(slot);
+        nodes_[leaves_ - 1 + leaf].extend(slots_[slot].box);
+      }
     }
-  }
+  });
   for (std::size_t node = leaves_ - 1; node-- > 0;) {
     nodes_[node] = nodes_[2 * node + 1];
     nodes_[node].extend(nodes_[2 * node + 2]);
@@ -74,17 +84,19 @@ void CrossingGuard::visit(const FloatBox& bounds, Visit&& visit) const {
       continue;
     }
     const std::size_t leaf = node - (leaves_ - 1);
-    for (std::size_t i = order_.size() * leaf / leaves_; i < order_.size() * (leaf + 1) / leaves_; ++i)
-      if (boxes_[i].intersects(bounds)) visit(order_[i]);
+    for (std::size_t i = first(leaf); i < first(leaf + 1); ++i)
+      if (slots_[i].box.intersects(bounds)) visit(static_cast<std::uint32_t>(i));
   }
 }
 
 bool CrossingGuard::crosses(std::span<const std::uint32_t> star, std::span<const Corners> fan) {
   FloatBox bounds;
   Vec3 up(0.0);
+  star_.clear();
   for (const std::uint32_t i : star) {
-    bounds.extend(boxes_[slots_[i]]);
-    up += area_of(triangles_[i]);
+    star_.push_back(slot_of_[i]);
+    bounds.extend(slots_[star_.back()].box);
+    up += area_of(slots_[star_.back()].corners);
   }
   up = glm::normalize(up);
   // A box in which the whole surface faces one way holds a single sheet, a height over a plane: two would need a third between
@@ -92,9 +104,9 @@ bool CrossingGuard::crosses(std::span<const std::uint32_t> star, std::span<const
   bool one_sheet = true;
   for (const Corners& c : fan) one_sheet &= glm::dot(glm::normalize(area_of(c)), up) > kFacing;
   near_.clear();
-  visit(bounds, [&](std::uint32_t i) {
-    one_sheet &= glm::dot(Vec3(normals_[i]), up) > kFacing;
-    if (std::find(star.begin(), star.end(), i) == star.end()) near_.push_back(i);
+  visit(bounds, [&](std::uint32_t slot) {
+    one_sheet &= glm::dot(Vec3(slots_[slot].normal), up) > kFacing;
+    if (std::find(star_.begin(), star_.end(), slot) == star_.end()) near_.push_back(slot);
   });
   if (one_sheet) return false;
   for (std::size_t i = 0; i < fan.size(); ++i) {
@@ -102,20 +114,19 @@ bool CrossingGuard::crosses(std::span<const std::uint32_t> star, std::span<const
       if (triangles_meet_wrongly(positions_, fan[i], fan[j])) return true;
     const FloatBox mine = bounds_of(fan[i]);
     for (const std::uint32_t other : near_) {
-      if (boxes_[slots_[other]].intersects(mine) && triangles_meet_wrongly(positions_, fan[i], triangles_[other])) return true;
+      if (slots_[other].box.intersects(mine) && triangles_meet_wrongly(positions_, fan[i], slots_[other].corners)) return true;
     }
   }
   return false;
 }
 
 void CrossingGuard::change(std::uint32_t triangle, const Corners& corners) {
-  triangles_[triangle] = corners;
-  normals_[triangle] = glm::vec3(glm::normalize(area_of(corners)));
-  const std::size_t slot = slots_[triangle];
-  const FloatBox bounds = boxes_[slot] = bounds_of(corners);
+  const std::size_t slot = slot_of_[triangle];
+  const FloatBox bounds = bounds_of(corners);
+  slots_[slot] = {bounds, glm::vec3(glm::normalize(area_of(corners))), triangle, corners};
   // The leaf whose share of the slots this one is in: the division that shares them out may round it one too low.
-  std::size_t leaf = slot * leaves_ / order_.size();
-  while (order_.size() * (leaf + 1) / leaves_ <= slot) ++leaf;
+  std::size_t leaf = slot * leaves_ / slots_.size();
+  while (first(leaf + 1) <= slot) ++leaf;
   for (std::size_t node = leaves_ - 1 + leaf; !nodes_[node].contains(bounds); node = (node - 1) / 2) {
     nodes_[node].extend(bounds);
     if (node == 0) break;
@@ -123,10 +134,15 @@ void CrossingGuard::change(std::uint32_t triangle, const Corners& corners) {
 }
 
 void CrossingGuard::remove(std::uint32_t triangle) {
-  gone_[triangle] = 1;
-  boxes_[slots_[triangle]] = FloatBox();
+  slots_[slot_of_[triangle]].box = FloatBox();
+  slot_of_[triangle] = kGone;
   --live_;
-  if (live_ > 0 && 2 * live_ < built_) build();
+  if (live_ == 0 || 2 * live_ >= built_) return;
+  std::vector<Slot> live;
+  live.reserve(live_);
+  for (const Slot& slot : slots_)
+    if (slot_of_[slot.triangle] != kGone) live.push_back(slot);
+  build(std::move(live));
 }
 
 }  // namespace cambium

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "blobtree/float_box.h"
+#include "blobtree/run_options.h"
 
 #include <array>
 #include <cstddef>
@@ -16,8 +17,8 @@ class CrossingGuard {
  public:
   using Corners = std::array<std::uint32_t, 3>;
 
-  /// `positions` outlives it and stays. Cost: n log n.
-  CrossingGuard(const std::vector<Vec3>& positions, std::vector<Corners> triangles);
+  /// `positions` and `run` outlive it and stay. Cancelled, here or in remove(), it is of no use. In the current arena. Cost: n log n.
+  CrossingGuard(const std::vector<Vec3>& positions, const std::vector<Corners>& triangles, const RunOptions& run);
 
   /// Whether any triangle of `fan` would meet another of it, or one that is not in `star`, beyond what they share
   /// (triangle_contact.h, exactly). They are the triangles around a vertex and what fills their outline in their place.
@@ -28,21 +29,28 @@ class CrossingGuard {
   void remove(std::uint32_t triangle);
 
  private:
+  struct Slot {                                // what is known of a triangle, beside its neighbours'
+    FloatBox box;                              // none: the triangle is gone
+    glm::vec3 normal;                          // unit
+    std::uint32_t triangle;
+    Corners corners;
+  };
   FloatBox bounds_of(const Corners& corners) const;
   Vec3 area_of(const Corners& corners) const;
-  void build();
+  void build(std::vector<Slot> triangles);
+  std::size_t first(std::size_t leaf) const { return (slots_.size() * leaf) >> depth_; }
   template <class Visit>
   void visit(const FloatBox& bounds, Visit&& visit) const;
 
   const std::vector<Vec3>& positions_;
-  std::vector<Corners> triangles_;
-  std::vector<glm::vec3> normals_;             // unit
-  std::vector<std::uint8_t> gone_;
+  const RunOptions& run_;
   std::size_t live_ = 0, built_ = 0;           // triangles now, and when the tree was built
-  std::vector<FloatBox> nodes_, boxes_;        // a heap as in box_tree.h; and by slot
-  std::vector<std::uint32_t> order_, slots_;   // triangle by slot, slot by triangle
-  std::size_t leaves_ = 0;
-  std::vector<std::uint32_t> near_;            // scratch
+  std::vector<FloatBox> nodes_;                // a heap as in box_tree.h
+  std::vector<Slot> slots_;                    // in the order of its leaves
+  std::vector<std::uint32_t> slot_of_;         // by triangle
+  std::size_t leaves_ = 0;                     // two to the power of depth_
+  int depth_ = 0;
+  std::vector<std::uint32_t> near_, star_;     // scratch: slots
 };
 
 }  // namespace cambium

@@ -61,7 +61,7 @@ std::uint32_t number(OpenMesh::BaseHandle handle) { return static_cast<std::uint
 class Collapser {
  public:
   Collapser(const Mesh& mesh, Halfedges& halfedges, const RunOptions& run)
-      : halfedges_(halfedges), normals_(mesh.normals), run_(run), crossings_(mesh.positions, mesh.triangles),
+      : halfedges_(halfedges), normals_(mesh.normals), run_(run), crossings_(mesh.positions, mesh.triangles, run),
         quadrics_(mesh.positions.size()), own_(mesh.positions.size()), targets_(mesh.positions.size()),
         stamps_(mesh.positions.size(), 0), left_(mesh.triangles.size()), first_(mesh.triangles.size()) {
     parallel_vertices([&](std::uint32_t v) {
@@ -180,7 +180,12 @@ class Collapser {
     if (spokes < 3 || spokes > kMostSpokes) return false;
     for (const auto v : halfedges_.vv_range(ci.v1))
       if (stamps_[number(v)] == stamp_ && v != ci.vl && v != ci.vr) return false;
-    return !(halfedges_.valence(ci.vl) == 3 && halfedges_.valence(ci.vr) == 3 && halfedges_.find_halfedge(ci.vl, ci.vr).is_valid());
+    const auto three_spokes = [&](VertexHandle v) {
+      HalfedgeHandle h = halfedges_.halfedge_handle(v);
+      for (int i = 0; i < 3; ++i) h = halfedges_.opposite_halfedge_handle(halfedges_.prev_halfedge_handle(h));
+      return h == halfedges_.halfedge_handle(v);
+    };
+    return !(three_spokes(ci.vl) && three_spokes(ci.vr) && halfedges_.find_halfedge(ci.vl, ci.vr).is_valid());
   }
 
   // A crease that runs around one triangle may not close up.
@@ -264,8 +269,6 @@ class Collapser {
     const CollapseInfo ci(halfedges_, h);
     // Two edges become one on either side, and OpenMesh keeps the status of one of them.
     const bool crease_left = crease(ci.vlv1) || crease(ci.v0vl), crease_right = crease(ci.v1vr) || crease(ci.vrv0);
-    ring_.clear();
-    for (const auto v : halfedges_.vv_range(ci.v0)) ring_.push_back(number(v));
     halfedges_.collapse(h);
     mark(ci.v1, ci.vl, crease_left);
     mark(ci.v1, ci.vr, crease_right);
@@ -277,11 +280,30 @@ class Collapser {
       crossings_.change(i, fan_[next++]);
     }
     crossings_.remove(number(ci.fl));
-    crossings_.remove(number(ci.fr));
+    crossings_.remove(number(ci.fr));   // builds its tree anew now and then
+    if (run_.cancelled()) throw Cancelled{};
     left_ -= 2;
     quadrics_[number(ci.v1)] += quadrics_[number(ci.v0)];
     set_own(number(ci.v1));
-    for (const std::uint32_t v : ring_) waiting.set(v, aim(v));
+    waiting.set(number(ci.v1), aim(number(ci.v1)));
+    for (const HalfedgeHandle out : halfedges_.voh_range(ci.v1))
+      aim_at_changed(number(halfedges_.to_vertex_handle(out)), halfedges_.opposite_halfedge_handle(out), waiting);
+  }
+
+  // Where `h` leads has changed, and nothing else that v might aim at. Who aims elsewhere aims on unless
+  // this is better; who had no way to go looks again.
+  void aim_at_changed(std::uint32_t v, HalfedgeHandle h, VertexHeap& waiting) {
+    const HalfedgeHandle old = targets_[v];
+    const bool aims_elsewhere = waiting.cost(v) != VertexHeap::kNever && old != h && !halfedges_.status(old).deleted();
+    if (!aims_elsewhere) {
+      waiting.set(v, aim(v));
+      return;
+    }
+    if (halfedges_.status(vertex(v)).feature() && !crease(h)) return;
+    if (const float c = cost(v, h); c < waiting.cost(v)) {
+      targets_[v] = h;
+      waiting.set(v, c);
+    }
   }
 
   Halfedges& halfedges_;
@@ -296,7 +318,7 @@ class Collapser {
   std::vector<std::uint32_t> stamps_;      // stamp_ if it is a neighbour of what is being looked at
   std::uint32_t stamp_ = 0;
   std::size_t left_, first_;               // triangles
-  std::vector<std::uint32_t> star_, ring_;
+  std::vector<std::uint32_t> star_;
   std::vector<CrossingGuard::Corners> fan_;
 };
 
