@@ -108,7 +108,7 @@ std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& pl
     if (!balance.update(refiner->tree(), cover, refiner->contour(), refiner->new_patches(), run)) return std::nullopt;
     progress.add(std::ldexp(0.35, -static_cast<int>(report.rounds)));
     std::vector<std::uint32_t> leaves;
-    const double care = report.rounds < kLateRound ? 1 : kLateCare;
+    const double care = report.rounds < kLateRound ? kAim : kLateCare;
     if (report.rounds < kMostRounds) leaves = leaves_to_refine(*refiner, balance, care * plan.tolerance);
     if (leaves.empty()) break;
     if (!refiner->split(std::move(leaves), run)) return std::nullopt;
@@ -171,7 +171,7 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   report_cells(*made, report);
   report.face_vertices = built->face_vertices;
   report.edge_vertices = built->edge_vertices;
-  const double thin = 2 * std::max(made->tree.narrow(), report.smallest_cell / 2);
+  const double thin = std::max(made->tree.narrow(), report.smallest_cell);   // wider ones are no cracks: their walls count
   const auto components = drop_small_components(result.mesh, thin, plan.crumb, run);
   if (!components) return std::nullopt;
   report.components = components->components;

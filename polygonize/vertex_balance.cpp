@@ -189,7 +189,7 @@ bool VertexBalance::measure(const SurfaceOctree& tree, const SurfaceCover& cover
   for_each(changed_edges_, [&](std::uint32_t e) {
     splits_[e].reset();
     const Ring ring = ring_at(e);
-    if (!(static_cast<double>(errors_[e]) < tolerance_ && bow_of(ring, contour, e, positions_) > kDoubt * tolerance_)) return;
+    if (!(static_cast<double>(errors_[e]) < kAim * tolerance_ && bow_of(ring, contour, e, positions_) > kDoubt * tolerance_)) return;
     const auto end = ring.patches.begin() + ring.count;
     const bool fan = std::any_of(ring.patches.begin(), end, [&](std::uint32_t p) { return crowded(contour, p); });
     splits_[e] = fan ? Split::kFan : split_of(tree, contour, e, ring, positions_, tolerance_);
@@ -205,7 +205,7 @@ bool VertexBalance::measure(const SurfaceOctree& tree, const SurfaceCover& cover
       const auto [e, split] = polygons[i];
       float off = std::max(distances[i], errors_[e]);
       std::optional<Split> next;
-      if (static_cast<double>(off) > tolerance_) {
+      if (static_cast<double>(off) > kAim * tolerance_) {
         next = next_split(split, fitting_splits(tree, contour, e, ring_at(e), positions_), turn);
       }
       if (turn == 0 || off < best[i]) {

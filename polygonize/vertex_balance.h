@@ -5,6 +5,8 @@
 
 namespace cambium {
 
+inline constexpr double kAim = 0.95;   ///< of the tolerance: what is measured at a few places of a polygon is larger somewhere
+
 /// Where the vertices of a convex twig lie on its surface the polygons lie inside it. Moving the vertices outwards by half of that
 /// brings both to the same distance, and polygons reach a tolerance with half as many cells. Follows a contour that is refined.
 class VertexBalance {
