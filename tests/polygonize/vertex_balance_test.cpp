@@ -80,7 +80,7 @@ TEST(VertexBalance, PolygonsThatAreWithinAreWithinWhereTheFieldIsAskedToo) {
     std::vector<SplitPolygon> within;
     for (std::uint32_t e = 0; e < contour.edges.size(); ++e) {
       const auto split = balanced.splits()[e];
-      if (!(balanced.error(e) <= tolerance)) continue;
+      if (!(balanced.error(e) <= kAim * tolerance)) continue;
       const Ring ring = ring_of(contour.edges[e], contour.patch_of_quadrant[e]);
       const Split own = split_of(on.tree, contour, e, ring, balanced.positions(), tolerance);
       within.push_back({e, split.value_or(own)});
