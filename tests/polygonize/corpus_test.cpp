@@ -1,7 +1,10 @@
 // Whatever the kernel can say, meshed: random nests of every primitive and operator, each through everything that is promised of
-// a mesh. 40 of them; 2,000 with CAMBIUM_EXHAUSTIVE=1 in the environment.
+// a mesh. 40 of them; 2,000 with CAMBIUM_EXHAUSTIVE=1 in the environment, in twenty cases that can be run apart: a quarter of an hour
+// in all.
 #include "blobtree/input_error.h"
+#include "polygonize/mesh_distance.h"
 #include "polygonize/polygonize.h"
+#include "polygonize/surface_samples.h"
 #include "polygonize/verify.h"
 #include "tests/blobtree/random_blobtrees.h"
 #include "tests/blobtree/strained_blobtrees.h"
@@ -16,9 +19,12 @@
 namespace cambium {
 namespace {
 
-std::uint64_t rounds() {
+constexpr std::uint64_t kCases = 20;
+constexpr std::size_t kSamples = 20'000;
+
+std::uint64_t nests_of_a_case() {
   const char* exhaustive = std::getenv("CAMBIUM_EXHAUSTIVE");
-  return exhaustive && std::string_view(exhaustive) == "1" ? 2000 : 40;
+  return exhaustive && std::string_view(exhaustive) == "1" ? 100 : 2;
 }
 
 // One in four is of a family that strains something; the others are small nests of anything.
@@ -28,6 +34,25 @@ BlobTree corpus_tree(std::uint64_t i) {
 }
 
 double longest(const Vec3& size) { return std::max({size.x, size.y, size.z}); }
+
+/// Whether wood or a gap at a point of the surface is thinner than `thin`, straight in and out.
+bool is_thin(const Field& field, const Vec3& p, double thin) {
+  constexpr int kSteps = 64;
+  const Vec3 in = glm::normalize(field.sample(p).gradient);
+  for (int k = 1; k <= kSteps; ++k) {
+    const Vec3 step = thin * k / kSteps * in;
+    if (field.sample(p + step).value < kIso || field.sample(p - step).value >= kIso) return true;
+  }
+  return false;
+}
+
+// Cells stop at about the tolerance: a wedge of wood, or of air, may be missing where it is thinner, and no other surface.
+void expect_only_thin_surface_missing(const Field& field, const SurfaceSamples& surface, const Mesh& mesh, double tolerance) {
+  const MeshDistance distance(mesh);
+  std::size_t missing = 0;
+  for (const Vec3& p : surface.points) missing += distance(p) > 2 * tolerance && !is_thin(field, p, tolerance);
+  EXPECT_LE(missing, surface.points.size() / 1000);
+}
 
 void expect_shippable(const Field& field, double tolerance) {
   PolygonizeOptions options;
@@ -40,11 +65,15 @@ void expect_shippable(const Field& field, double tolerance) {
   }
   ASSERT_TRUE(made.has_value());
   const Mesh& mesh = made->mesh;
-  const Verification v = *verify_mesh(mesh, field, {.tolerance = tolerance, .surface_samples = 20'000}, {});
-  if (v.surface_to_mesh.samples == 0) {
+  const Verification v = *verify_mesh(mesh, field, {.tolerance = tolerance, .surface_samples = kSamples}, {});
+  const SurfaceSamples surface = *sample_surface(field, kSamples, {});
+  Box around;
+  for (const Vec3& p : surface.points) around.extend(p);
+  if (surface.points.empty()) {
     EXPECT_TRUE(mesh.triangles.empty());
     return;
   }
+  if (longest(around.size()) < tolerance && mesh.triangles.empty()) return;   // a speck
   EXPECT_TRUE(v.topology.closed_manifold())
       << "boundary edges " << v.topology.boundary_edges << ", non-manifold edges " << v.topology.nonmanifold_edges
       << ", vertices " << v.topology.nonmanifold_vertices << ", degenerate " << v.topology.degenerate_triangles;
@@ -54,14 +83,16 @@ void expect_shippable(const Field& field, double tolerance) {
   if (v.topology.closed_manifold()) {
     EXPECT_EQ(testing::cgal_self_intersections(mesh).size(), v.self_intersections);
   }
-  // Nests that bend, twist and taper are worse than trees: there it is 99.9 % and all within twice (check_presets.sh).
-  EXPECT_GE(v.mesh_to_surface.within, 0.98) << "99.9 % " << v.mesh_to_surface.p999;
-  EXPECT_GE(v.mesh_to_surface.within_twice, 0.99) << "max " << v.mesh_to_surface.max;
+  EXPECT_GE(v.mesh_to_surface.within, 0.998) << "99.9 % " << v.mesh_to_surface.p999;
+  EXPECT_LE(v.mesh_to_surface.max, 2 * tolerance) << v.mesh_to_surface.max / tolerance;
+  if (v.open_surface_to_mesh.within_twice < 1) expect_only_thin_surface_missing(field, surface, mesh, tolerance);
 }
 
-TEST(Corpus, EveryMeshIsClosedManifoldFreeOfCrossingsAndWithinTolerance) {
-  const std::uint64_t count = rounds();
-  for (std::uint64_t i = 0; i < count; ++i) {
+class Corpus : public ::testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Corpus, EveryMeshIsClosedManifoldFreeOfCrossingsAndWithinTolerance) {
+  const std::uint64_t count = nests_of_a_case();
+  for (std::uint64_t i = count * GetParam(); i < count * (GetParam() + 1); ++i) {
     const Field field(corpus_tree(i));
     if (field.bounds().empty()) continue;
     const double tolerance = 0.004 * longest(field.bounds().size());
@@ -69,6 +100,8 @@ TEST(Corpus, EveryMeshIsClosedManifoldFreeOfCrossingsAndWithinTolerance) {
     expect_shippable(field, tolerance);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Slices, Corpus, ::testing::Range(std::uint64_t{0}, kCases));
 
 }  // namespace
 }  // namespace cambium
