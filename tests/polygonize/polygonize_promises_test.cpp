@@ -86,6 +86,25 @@ TEST(PolygonizePromises, MostCreaseEdgesKeepTheirAngleToTwoDegrees) {
   }
 }
 
+/// Two branches that part at six degrees: the gap between them opens from nothing.
+Field crevice_field() {
+  BlobTreeBuilder b;
+  const NodeId one = b.add(Capsule{Vec3(0, 0, 0), Vec3(0.02, 0.03, 1), 0.1, 1});
+  const NodeId other = b.add(Capsule{Vec3(0.19, 0, 0), Vec3(0.31, 0.03, 1), 0.1, 1});
+  return Field(b.build(b.add(Union{{one, other}})));
+}
+
+TEST(PolygonizePromises, GapsAsWideAsTheToleranceAreOpen) {
+  const Field field = crevice_field();
+  for (const double tolerance : {0.0012, 0.001, 0.0008, 0.0006}) {
+    SCOPED_TRACE(tolerance);
+    const Polygonized made = at_tolerance(field, tolerance);
+    const Verification v = verify_mesh(made.mesh, field, {.tolerance = tolerance, .surface_samples = 100'000}, {}).value();
+    EXPECT_GT(v.in_cracks, 0u) << "the case this is for";
+    EXPECT_EQ(v.open_surface_to_mesh.within_twice, 1) << v.open_surface_to_mesh.max / tolerance;
+  }
+}
+
 TEST(PolygonizePromises, BothDistancesAreWithinTheToleranceButForAThousandthAndWithinTwiceAlways) {
   struct Case {
     std::string name;
