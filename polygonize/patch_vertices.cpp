@@ -127,8 +127,8 @@ class VertexPlacer {
     }
     if (sides_.size() < 2) return;
     Box within = placed.box;
-    within.lo += kCreaseMargin * placed.edge;
-    within.hi -= kCreaseMargin * placed.edge;
+    within.lo += kCreaseMargin * tree_.grid().cell;
+    within.hi -= kCreaseMargin * tree_.grid().cell;
     std::optional<CreasePoint> found;
     if (sides_.size() <= kMostSides) found = find_crease(choices_, field, sides_, placed.best, within);
     if (!found) found = find_from_faces(field, placed, within);
@@ -165,7 +165,8 @@ class VertexPlacer {
       ++count;
     }
     if (count < 2) return std::nullopt;
-    const Vec3 middle = clamp_into(placed.box.lo + entries.position / static_cast<double>(count), placed.box, kCreaseMargin * placed.edge);
+    const Vec3 mean = placed.box.lo + entries.position / static_cast<double>(count);
+    const Vec3 middle = clamp_into(mean, placed.box, kCreaseMargin * tree_.grid().cell);
     if (sides_.size() <= kMostSides) {
       if (auto found = find_crease(choices_, field, sides_, middle, within)) return found;
     }

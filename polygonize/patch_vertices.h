@@ -6,7 +6,7 @@
 namespace cambium {
 
 inline constexpr double kVertexMargin = 0.02;   ///< vertices keep this far inside their leaves, in edges, so that no two can meet
-inline constexpr double kCreaseMargin = 0.004;  ///< those on creases, which a margin moves off them
+inline constexpr double kCreaseMargin = 0.004;  ///< those on creases, which a margin moves off them, in the smallest cells
 
 /// Of the patches listed, ascending, into contour.vertices and contour.exits; their crossings are known. False if cancelled.
 /// Cost: two samples a patch, and a few dozen point evaluations where sheets meet.

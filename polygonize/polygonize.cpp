@@ -29,7 +29,7 @@ constexpr double kWhole = 1.1;        // in radii: of larger cells the corners m
 constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge
 // Cells of sqrt(kSagitta tolerance radius) are about as large as keeps their polygons within the tolerance: the rest is refined.
 // From 5 to 16 the poplar takes 5.0 to 3.6 million triangles at 0.5 mm, but as many more rounds.
-constexpr double kSagitta = 8;
+constexpr double kSagitta = 10;
 constexpr int kFinestHalvings = 19;   // of the field's bounds
 
 struct Plan {
@@ -60,7 +60,7 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
   plan.leaves.radii = std::min(kCellsAround / sides, kWhole);
   plan.leaves.sagitta = kSagitta * plan.tolerance;
   plan.leaves.longest = across / 16;
-  plan.leaves.shortest_gap = plan.tolerance / 2;   // narrow() is at most twice that
+  plan.leaves.shortest_gap = 0.5001 * plan.tolerance;   // narrow() is the next cell, at most the tolerance and a hair
   // Leaves halve from one that is just right for the thinnest twig, of which there is most, down to a quarter of the tolerance.
   double unit = std::isfinite(thinnest) ? plan.leaves.edge(thinnest) : plan.leaves.longest;
   const double finest = std::max(plan.tolerance / 4, std::max({size.x, size.y, size.z}) * std::ldexp(1.0, -kFinestHalvings));

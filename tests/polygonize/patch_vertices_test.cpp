@@ -28,7 +28,7 @@ TEST(PatchVertices, AreStrictlyInsideTheirLeavesWhateverTheFieldIs) {
       const PatchVertex& vertex = contour.vertices[i];
       const OctreeLeaf& leaf = on.tree.leaves()[contour.patches[i].leaf];
       const Box box = on.tree.box(leaf);
-      const double margin = 0.999 * (vertex.crease ? kCreaseMargin : kVertexMargin) * on.tree.edge(leaf);
+      const double margin = 0.999 * (vertex.crease ? kCreaseMargin * on.tree.grid().cell : kVertexMargin * on.tree.edge(leaf));
       for (int a = 0; a < 3; ++a) {
         ASSERT_GE(vertex.position[a], box.lo[a] + margin) << "vertex " << i;
         ASSERT_LE(vertex.position[a], box.hi[a] - margin) << "vertex " << i;
