@@ -46,6 +46,16 @@ std::vector<bool> crowded_patches(const Contour& contour) {
   return crowded;
 }
 
+Vec3 crowded_position(const SurfaceOctree& tree, const Contour& contour, std::uint32_t patch) {
+  constexpr double kMargin = 0.002;   // in edges
+  const OctreeLeaf& leaf = tree.leaves()[contour.patches[patch].leaf];
+  const Box box = tree.box(leaf);
+  const double margin = kMargin * tree.edge(leaf);
+  Vec3 sum(0.0);
+  for (const std::uint32_t e : contour.ring(patch)) sum += crossing_point(tree, contour, e) - box.lo;
+  return glm::clamp(box.lo + sum / static_cast<double>(contour.patches[patch].edge_count), box.lo + margin, box.hi - margin);
+}
+
 std::vector<Vec3> entangled_leaves(const SurfaceOctree& tree, const Contour& contour) {
   std::vector<Vec3> found;
   for (std::uint32_t begin = 0; begin < contour.patches.size();) {

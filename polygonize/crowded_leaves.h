@@ -14,4 +14,8 @@ std::vector<bool> crowded_patches(const Contour& contour);
 /// touch, or pass through each other where the true ones do not.
 std::vector<Vec3> entangled_leaves(const SurfaceOctree& tree, const Contour& contour);
 
+/// Where a crowded patch has its vertex: amid its own crossings, so that those of parallel sheets are apart, and strictly inside its leaf
+/// even where all of them are on one face.
+Vec3 crowded_position(const SurfaceOctree& tree, const Contour& contour, std::uint32_t patch);
+
 }  // namespace cambium

@@ -72,13 +72,8 @@ class PolygonBuilder {
       : tree_(tree), cover_(cover), contour_(contour), edges_(contour.edges), crossings_(contour.crossings),
         positions_(positions), splits_(splits), tolerance_(tolerance), creases_(crease_edges(contour)),
         crowded_(crowded_patches(contour)) {
-    // Of a leaf with several patches each keeps to the hull of its own crossings, so that those of parallel sheets are apart.
     for (std::uint32_t p = 0; p < positions_.size(); ++p) {
-      if (!crowded_[p]) continue;
-      const Vec3 low = tree.box(tree.leaves()[contour.patches[p].leaf]).lo;
-      Vec3 sum(0.0);
-      for (const std::uint32_t e : contour.ring(p)) sum += crossing_point(e) - low;
-      positions_[p] = low + sum / static_cast<double>(contour.patches[p].edge_count);
+      if (crowded_[p]) positions_[p] = crowded_position(tree, contour, p);
     }
     std::erase_if(creases_, [&](const auto& crease) { return crowded_[crease[0]] || crowded_[crease[1]]; });
   }

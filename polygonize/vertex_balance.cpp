@@ -1,5 +1,6 @@
 #include "polygonize/vertex_balance.h"
 
+#include "polygonize/crowded_leaves.h"
 #include "polygonize/patch_vertices.h"
 #include "polygonize/polygon_distance.h"
 
@@ -77,13 +78,6 @@ bool crowded(const Contour& contour, std::uint32_t p) {
   return (p > 0 && patches[p - 1].leaf == patches[p].leaf) || (p + 1 < patches.size() && patches[p + 1].leaf == patches[p].leaf);
 }
 
-Vec3 mean_crossing(const SurfaceOctree& tree, const Contour& contour, std::uint32_t p) {
-  const Vec3 low = tree.box(tree.leaves()[contour.patches[p].leaf]).lo;
-  Vec3 sum(0.0);
-  for (const std::uint32_t e : contour.ring(p)) sum += crossing_point(tree, contour, e) - low;
-  return low + sum / static_cast<double>(contour.patches[p].edge_count);
-}
-
 /// What to try after a split that is off: the other diagonal first, if it fits, then the fan.
 std::optional<Split> next_split(Split split, const std::array<bool, 2>& fitting, int turn) {
   if (split == Split::kFan) return std::nullopt;
@@ -137,7 +131,7 @@ bool VertexBalance::update(const SurfaceOctree& tree, const SurfaceCover& cover,
   errors_.resize(contour.edges.size());
   splits_.resize(contour.edges.size());
   for_each(new_patches, [&](std::uint32_t p) {
-    on_surface_[p] = crowded(contour, p) ? mean_crossing(tree, contour, p) : contour.vertices[p].position;
+    on_surface_[p] = crowded(contour, p) ? crowded_position(tree, contour, p) : contour.vertices[p].position;
   });
   const auto height = [&](std::uint32_t e, const std::vector<Vec3>& positions) {
     return static_cast<float>(
