@@ -29,7 +29,7 @@ constexpr double kWhole = 1.1;        // in radii: of larger cells the corners m
 constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge
 // Cells of sqrt(kSagitta tolerance radius) are about as large as keeps their polygons within the tolerance: the rest is refined.
 // From 5 to 16 the poplar takes 5.0 to 3.6 million triangles at 0.5 mm, but as many more rounds.
-constexpr double kSagitta = 10;
+constexpr double kSagitta = 8;
 constexpr int kFinestHalvings = 19;   // of the field's bounds
 
 struct Plan {
