@@ -24,7 +24,10 @@ constexpr std::size_t kMostRounds = 16;
 // that the next, a leaf a round.
 constexpr std::size_t kLateRound = 6;
 constexpr double kLateCare = 1.25;
-constexpr std::size_t kMostCells = 400'000'000;
+constexpr std::size_t kMostUniformCells = 400'000'000;
+// Of a cover that follows the radii: with more there would be too many leaves. Of hairs metres long it is made coarser instead, so that
+// it does not take minutes to find that out.
+constexpr std::size_t kMostCells = 4'000'000;
 constexpr double kWhole = 1.1;        // in radii: of larger cells the corners may miss a twig, or meet only across a diagonal
 constexpr double kCellsAround = 8;    // a circle of one radius crosses so many squares with that edge
 // Cells of sqrt(kSagitta tolerance radius) are about as large as keeps their polygons within the tolerance: the rest is refined.
@@ -49,6 +52,7 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
     plan.tolerance = kInfinity;
     plan.finer = 3;
     plan.leaves.radii = 0;
+    plan.cover.max_cells = kMostUniformCells;
     plan.cover.cell = *options.voxel * 8;
     return plan;
   }
