@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -42,8 +43,12 @@ Field make_field(std::size_t internodes) {
   return Field(surface(skeleton, options).tree);
 }
 
-/// To three quarters of what the machine has: a mesh that takes more ends this process, not those beside it.
+[[noreturn]] void end_out_of_memory() { ::_exit(kOutOfMemory); }
+
+/// To three quarters of what the machine has: a mesh that takes more ends this process, not those beside it. At once, as libraries
+/// throw where nobody catches.
 void limit_memory() {
+  std::set_new_handler(end_out_of_memory);
   rlimit limit{};
   ::getrlimit(RLIMIT_AS, &limit);
   const rlim_t most = static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) / 4 * 3;

@@ -1,6 +1,7 @@
 #include "polygonize/vertex_balance.h"
 
 #include "polygonize/crowded_leaves.h"
+#include "polygonize/marks.h"
 #include "polygonize/patch_vertices.h"
 #include "polygonize/polygon_distance.h"
 
@@ -85,40 +86,27 @@ std::optional<Split> next_split(Split split, const std::array<bool, 2>& fitting,
   return Split::kFan;
 }
 
-class Marks {
- public:
-  explicit Marks(std::size_t n) : marked_(n, 0) {}
-  void mark(std::uint32_t i) { marked_[i] = 1; }
-  std::vector<std::uint32_t> ascending() const {
-    std::vector<std::uint32_t> list;
-    for (std::uint32_t i = 0; i < marked_.size(); ++i)
-      if (marked_[i]) list.push_back(i);
-    return list;
-  }
-
- private:
-  std::vector<std::uint8_t> marked_;
-};
-
-std::vector<std::uint32_t> edges_of(const Contour& contour, const std::vector<std::uint32_t>& patches) {
-  Marks marks(contour.edges.size());
-  for (const std::uint32_t p : patches)
-    for (const std::uint32_t e : contour.ring(p)) marks.mark(e);
-  return marks.ascending();
-}
-
-std::vector<std::uint32_t> patches_around(const Contour& contour, const std::vector<std::uint32_t>& edges) {
-  Marks marks(contour.patches.size());
-  for (const std::uint32_t e : edges)
-    for (const std::uint32_t p : contour.patch_of_quadrant[e]) marks.mark(p);
-  return marks.ascending();
-}
-
 template <class Body>
 void for_each(const std::vector<std::uint32_t>& list, Body&& body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, list.size(), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) body(list[i]);
   });
+}
+
+std::vector<std::uint32_t> edges_of(const Contour& contour, const std::vector<std::uint32_t>& patches) {
+  Marks marks(contour.edges.size());
+  for_each(patches, [&](std::uint32_t p) {
+    for (const std::uint32_t e : contour.ring(p)) marks.add(e);
+  });
+  return marks.ascending();
+}
+
+std::vector<std::uint32_t> patches_around(const Contour& contour, const std::vector<std::uint32_t>& edges) {
+  Marks marks(contour.patches.size());
+  for_each(edges, [&](std::uint32_t e) {
+    for (const std::uint32_t p : contour.patch_of_quadrant[e]) marks.add(p);
+  });
+  return marks.ascending();
 }
 
 }  // namespace
