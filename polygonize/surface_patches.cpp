@@ -4,7 +4,6 @@
 #include "polygonize/ordered_chunks.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace cambium {
 namespace {
@@ -204,12 +203,13 @@ bool lists(const LeafEdges& around, std::uint32_t leaf) {
 
 /// Links the lines of a face so that no two of them join the same cycles on both sides. True if any had to change.
 bool settle(ManyLines& face, const LeafEdges& around, LeafTracer& tracer, RelinkedFaces& relinked) {
-  bool changed = false;
-  for (bool again = true; again;) {
+  bool changed = false, again = true;
+  for (std::size_t cuts = 0; again && cuts < face.lines.size(); ++cuts) {   // each makes a cycle more, and there are no more than lines
     again = false;
     Cycles here, there;
     tracer.trace(face.leaf, around.of(place_of(around, face.leaf)), here.order, here.lengths);
     tracer.trace(face.other, around.of(place_of(around, face.other)), there.order, there.lengths);
+    tracer.faces.clear();
     for (std::size_t i = 0; i < face.lines.size() && !again; ++i) {
       for (std::size_t j = i + 1; j < face.lines.size() && !again; ++j) {
         auto &a = face.lines[i], &b = face.lines[j];
@@ -227,6 +227,7 @@ struct Traced {
   std::vector<std::uint32_t> counts;   // of cycles of each leaf
   Cycles cycles;
   std::vector<ManyLines> faces;
+  std::vector<std::uint32_t> to_split;
 };
 
 }  // namespace
@@ -250,55 +251,53 @@ std::vector<std::uint32_t> leaves_across_many_lines(const SurfaceOctree& tree, c
 
 LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const LeafEdges& around,
                         RelinkedFaces& relinked) {
-  auto traced = in_chunks<Traced>(around.leaves.size(), kLeavesPerTask, [&](Traced& out, std::size_t begin, std::size_t end) {
-    LeafTracer tracer(tree, edges);
+  const auto trace = [&](LeafTracer& tracer, std::size_t begin, std::size_t end, Traced& out) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t before = out.cycles.lengths.size();
       tracer.trace(around.leaves[i], around.of(i), out.cycles.order, out.cycles.lengths);
       out.counts.push_back(static_cast<std::uint32_t>(out.cycles.lengths.size() - before));
+      const auto first = out.cycles.lengths.begin() + static_cast<std::ptrdiff_t>(before);
+      if (std::any_of(first, out.cycles.lengths.end(), [](std::uint32_t length) { return length < 3; })) {
+        out.to_split.push_back(around.leaves[i]);
+      }
     }
+  };
+  auto traced = in_chunks<Traced>(around.leaves.size(), kLeavesPerTask, [&](Traced& out, std::size_t begin, std::size_t end) {
+    LeafTracer tracer(tree, edges);
+    trace(tracer, begin, end, out);
     out.faces = std::move(tracer.faces);
   });
 
-  LeafCycles result;
   LeafTracer tracer(tree, edges);
   tracer.relinked = &relinked;
-  std::unordered_map<std::uint32_t, Cycles> again;
+  std::vector<std::size_t> again;   // tasks with leaves whose faces were linked the other way
   for (const Traced& part : traced)
     for (const ManyLines& face : part.faces) relinked.erase(key_of(face.leaf, face.other));
   for (Traced& part : traced) {
     for (ManyLines& face : part.faces) {
-      if (face.leaf < face.other && settle(face, around, tracer, relinked)) again[face.leaf], again[face.other];
+      if (face.leaf > face.other || !settle(face, around, tracer, relinked)) continue;
+      for (const std::uint32_t leaf : {face.leaf, face.other}) again.push_back(place_of(around, leaf) / kLeavesPerTask);
     }
   }
-  for (auto& [leaf, cycles] : again) tracer.trace(leaf, around.of(place_of(around, leaf)), cycles.order, cycles.lengths);
+  std::sort(again.begin(), again.end());
+  again.erase(std::unique(again.begin(), again.end()), again.end());
+  tbb::parallel_for(std::size_t{0}, again.size(), [&](std::size_t k) {
+    LeafTracer settled(tree, edges);
+    settled.relinked = &relinked;
+    traced[again[k]] = {};
+    trace(settled, again[k] * kLeavesPerTask, std::min(around.leaves.size(), (again[k] + 1) * kLeavesPerTask), traced[again[k]]);
+  });
 
-  result.counts.reserve(around.leaves.size());
-  result.edges.reserve(around.edges.size());
-  std::size_t leaf = 0;
-  for (const Traced& part : traced) {
-    const std::uint32_t *order = part.cycles.order.data(), *lengths = part.cycles.lengths.data();
-    for (const std::uint32_t count : part.counts) {
-      const std::uint32_t* const order_begin = order;
-      const std::uint32_t* const lengths_begin = lengths;
-      for (std::uint32_t k = 0; k < count; ++k) order += *lengths++;
-      const auto other = again.empty() ? again.end() : again.find(around.leaves[leaf]);
-      if (other == again.end()) {
-        result.counts.push_back(count);
-        result.edges.insert(result.edges.end(), order_begin, order);
-        result.lengths.insert(result.lengths.end(), lengths_begin, lengths);
-      } else {
-        result.counts.push_back(static_cast<std::uint32_t>(other->second.lengths.size()));
-        result.edges.insert(result.edges.end(), other->second.order.begin(), other->second.order.end());
-        result.lengths.insert(result.lengths.end(), other->second.lengths.begin(), other->second.lengths.end());
-      }
-      const auto end = result.lengths.end();
-      if (std::any_of(end - result.counts.back(), end, [](std::uint32_t length) { return length < 3; })) {
-        result.to_split.push_back(around.leaves[leaf]);
-      }
-      ++leaf;
-    }
-  }
+  LeafCycles result;
+  const auto gather = [&](auto&& list_of, std::vector<std::uint32_t>& all) {
+    std::vector<std::vector<std::uint32_t>> lists(traced.size());
+    for (std::size_t i = 0; i < traced.size(); ++i) lists[i] = std::move(list_of(traced[i]));
+    append_parts(lists, all);
+  };
+  gather([](Traced& part) -> auto& { return part.counts; }, result.counts);
+  gather([](Traced& part) -> auto& { return part.cycles.order; }, result.edges);
+  gather([](Traced& part) -> auto& { return part.cycles.lengths; }, result.lengths);
+  gather([](Traced& part) -> auto& { return part.to_split; }, result.to_split);
   return result;
 }
 
