@@ -40,7 +40,7 @@ struct Polygonized {
 };
 
 /// nullopt if cancelled. Deterministic at any thread count. Errors: InputError for lengths that are none, both a voxel and a
-/// tolerance, or cells too fine to index. Memory: about 250 bytes a vertex.
+/// tolerance, or more cells than there is room for. Memory: about 400 bytes a vertex.
 std::optional<Polygonized> polygonize(const Field& field, const PolygonizeOptions& options, const RunOptions& run);
 
 }  // namespace cambium
