@@ -152,10 +152,10 @@ Box SurfaceCover::cube(std::size_t cell) const { return grid_.box(cells_[cell].p
 
 std::optional<std::size_t> SurfaceCover::find(const Vec3& p) const {
   const std::optional<CellPlace> place = grid_.place_of(p);
-  return place ? find(*place) : std::nullopt;
+  return place ? find_place(*place) : std::nullopt;
 }
 
-std::optional<std::size_t> SurfaceCover::find(const CellPlace& place) const {
+std::optional<std::size_t> SurfaceCover::find_place(const CellPlace& place) const {
   const auto after = std::upper_bound(cells_.begin(), cells_.end(), place,
                                       [](const CellPlace& at, const Cell& cell) { return before_in_morton_order(at, cell.place); });
   if (after == cells_.begin()) return std::nullopt;

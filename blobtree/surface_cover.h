@@ -45,7 +45,7 @@ class SurfaceCover {
   /// Cost: a binary search.
   std::optional<std::size_t> find(const Vec3& p) const;
   /// Of a level-0 cell of the grid. Places beyond the root cube have none.
-  std::optional<std::size_t> find(const CellPlace& place) const;
+  std::optional<std::size_t> find_place(const CellPlace& place) const;
   /// Exact inside box(cell). Valid while the cover lives. Cheap; no allocation.
   PrunedField field(std::size_t cell) const;
   /// The cube that the cell is of its grid, and a field exact in all of it.

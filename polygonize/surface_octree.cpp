@@ -384,7 +384,7 @@ std::array<std::array<std::uint32_t, 2>, 3> SurfaceOctree::places_of(std::size_t
 }
 
 std::optional<std::size_t> SurfaceOctree::cell_at(const CellPlace& place) const {
-  return cover_->find(CellPlace{place[0] >> finer_, place[1] >> finer_, place[2] >> finer_});
+  return cover_->find_place({place[0] >> finer_, place[1] >> finer_, place[2] >> finer_});
 }
 
 SurfaceOctree::Node* SurfaceOctree::slot_of(const CellPlace& place) {

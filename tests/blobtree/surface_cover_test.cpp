@@ -287,6 +287,10 @@ TEST(SurfaceCover, FindsTheCellWhoseCubeHoldsAPoint) {
         const Box cube = cover.cube(i), box = cover.box(i);
         ASSERT_TRUE(cube.contains(box.lo) && cube.contains(box.hi));
         ASSERT_EQ(cover.find(cube.lo), i);
+        CellPlace last = cover.place(i);
+        for (std::uint32_t& along : last) along += (1u << cover.level(i)) - 1;
+        ASSERT_EQ(cover.find_place(cover.place(i)), i);
+        ASSERT_EQ(cover.find_place(last), i);
         const Vec3 p = draws.point(cube);
         ASSERT_EQ(cover.find(p), i);
         if (!box.contains(p)) {
@@ -307,6 +311,7 @@ TEST(SurfaceCover, FindsTheCellWhoseCubeHoldsAPoint) {
         }
       }
       EXPECT_FALSE(cover.find(field.bounds().hi + 1e3));
+      EXPECT_FALSE(cover.find_place({0xffffffffu, 0, 0}));
     }
   }
   EXPECT_GT(found, 20000u);
