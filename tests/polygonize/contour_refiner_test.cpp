@@ -1,4 +1,4 @@
-#include "polygonize/contour.h"
+#include "polygonize/contour_refiner.h"
 
 #include "polygonize/polygon_ring.h"
 #include "tests/polygonize/mesh_checks.h"
