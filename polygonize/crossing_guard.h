@@ -43,7 +43,7 @@ class CrossingGuard {
   void visit(const FloatBox& bounds, Visit&& visit) const;
 
   const std::vector<Vec3>& positions_;
-  const RunOptions& run_;
+  const RunOptions run_;
   std::size_t live_ = 0, built_ = 0;           // triangles now, and when the tree was built
   std::vector<FloatBox> nodes_;                // a heap as in box_tree.h
   std::vector<Slot> slots_;                    // in the order of its leaves
