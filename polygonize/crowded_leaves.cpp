@@ -38,11 +38,15 @@ bool apart(const Sheet& a, const Sheet& b) {
 
 }  // namespace
 
+bool is_crowded(const Contour& contour, std::uint32_t patch) {
+  const std::vector<Patch>& patches = contour.patches;   // those of a leaf stand together
+  const auto same = [&](std::size_t other) { return patches[other].leaf == patches[patch].leaf; };
+  return (patch > 0 && same(patch - 1)) || (patch + 1 < patches.size() && same(patch + 1));
+}
+
 std::vector<bool> crowded_patches(const Contour& contour) {
-  std::vector<bool> crowded(contour.patches.size(), false);
-  for (std::size_t p = 1; p < contour.patches.size(); ++p) {   // patches of a leaf stand together
-    if (contour.patches[p].leaf == contour.patches[p - 1].leaf) crowded[p] = crowded[p - 1] = true;
-  }
+  std::vector<bool> crowded(contour.patches.size());
+  for (std::uint32_t p = 0; p < crowded.size(); ++p) crowded[p] = is_crowded(contour, p);
   return crowded;
 }
 

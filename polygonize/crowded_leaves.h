@@ -7,6 +7,9 @@
 
 namespace cambium {
 
+/// Whether a living patch's leaf has others.
+bool is_crowded(const Contour& contour, std::uint32_t patch);
+
 /// By patch of a compacted contour: whether its leaf has others. Cost: linear.
 std::vector<bool> crowded_patches(const Contour& contour);
 

@@ -73,12 +73,6 @@ double bow_of(const Ring& ring, const Contour& contour, std::uint32_t edge, cons
   return static_cast<double>(turn) * size / 8;
 }
 
-/// One of several patches of its leaf: it keeps to the hull of its own crossings (patch_polygons.cpp), and its polygons are fans.
-bool crowded(const Contour& contour, std::uint32_t p) {
-  const std::vector<Patch>& patches = contour.patches;   // those of a leaf stand together
-  return (p > 0 && patches[p - 1].leaf == patches[p].leaf) || (p + 1 < patches.size() && patches[p + 1].leaf == patches[p].leaf);
-}
-
 /// What to try after a split that is off: the other diagonal first, if it fits, then the fan.
 std::optional<Split> next_split(Split split, const std::array<bool, 2>& fitting, int turn) {
   if (split == Split::kFan) return std::nullopt;
@@ -119,7 +113,7 @@ bool VertexBalance::update(const SurfaceOctree& tree, const SurfaceCover& cover,
   errors_.resize(contour.edges.size());
   splits_.resize(contour.edges.size());
   for_each(new_patches, [&](std::uint32_t p) {
-    on_surface_[p] = crowded(contour, p) ? crowded_position(tree, contour, p) : contour.vertices[p].position;
+    on_surface_[p] = is_crowded(contour, p) ? crowded_position(tree, contour, p) : contour.vertices[p].position;
   });
   const auto height = [&](std::uint32_t e, const std::vector<Vec3>& positions) {
     return static_cast<float>(
@@ -130,7 +124,7 @@ bool VertexBalance::update(const SurfaceOctree& tree, const SurfaceCover& cover,
   const std::vector<std::uint32_t> patches = patches_around(contour, edges);
   for_each(patches, [&](std::uint32_t p) {
     positions_[p] = on_surface_[p];
-    if (contour.vertices[p].crease || crowded(contour, p)) return;
+    if (contour.vertices[p].crease || is_crowded(contour, p)) return;
     double sum = 0;
     for (const std::uint32_t e : contour.ring(p)) {
       if (!bends(contour, e)) sum += static_cast<double>(heights_[e]);
@@ -173,7 +167,7 @@ bool VertexBalance::measure(const SurfaceOctree& tree, const SurfaceCover& cover
     const Ring ring = ring_at(e);
     if (!(static_cast<double>(errors_[e]) < kAim * tolerance_ && bow_of(ring, contour, e, positions_) > kDoubt * tolerance_)) return;
     const auto end = ring.patches.begin() + ring.count;
-    const bool fan = std::any_of(ring.patches.begin(), end, [&](std::uint32_t p) { return crowded(contour, p); });
+    const bool fan = std::any_of(ring.patches.begin(), end, [&](std::uint32_t p) { return is_crowded(contour, p); });
     splits_[e] = fan ? Split::kFan : split_of(tree, contour, e, ring, positions_, tolerance_);
   });
   std::vector<SplitPolygon> polygons;

@@ -1,6 +1,6 @@
 #include "polygonize/vertex_clusters.h"
 
-#include <tbb/parallel_for.h>
+#include "polygonize/ordered_chunks.h"
 
 #include <algorithm>
 #include <numeric>
@@ -72,19 +72,7 @@ void cluster_run(const Mesh& mesh, double spacing, std::size_t begin, std::size_
   }
 }
 
-/// The parts one after the other.
-template <class T>
-std::vector<T> joined(std::vector<std::vector<T>>& parts, const std::vector<std::uint32_t>& first, const RunOptions& run) {
-  std::vector<T> all(first.back());
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
-    if (!run.cancelled()) std::copy(parts[part].begin(), parts[part].end(), all.begin() + static_cast<std::ptrdiff_t>(first[part]));
-    parts[part] = {};
-  });
-  return all;
-}
-
-template <class T>
-std::vector<std::uint32_t> first_of(const std::vector<std::vector<T>>& parts) {
+std::vector<std::uint32_t> first_of(const std::vector<std::vector<std::uint32_t>>& parts) {
   std::vector<std::uint32_t> first(parts.size() + 1, 0);
   for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + static_cast<std::uint32_t>(parts[i].size());
   return first;
@@ -111,7 +99,7 @@ VertexClusters cluster_vertices(const Mesh& mesh, double spacing, const RunOptio
   for_tasks(vertices, run, [&](std::size_t task, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) out.of_vertex[i] += first[task];
   });
-  out.middle = joined(middles, first, run);
+  append_parts(middles, out.middle);
 
   std::vector<std::vector<std::array<std::uint32_t, 3>>> between((triangles + kTask - 1) / kTask);
   for_tasks(triangles, run, [&](std::size_t task, std::size_t begin, std::size_t end) {
@@ -121,7 +109,7 @@ VertexClusters cluster_vertices(const Mesh& mesh, double spacing, const RunOptio
       if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) between[task].push_back(c);
     }
   });
-  out.triangles = joined(between, first_of(between), run);
+  append_parts(between, out.triangles);
   return run.cancelled() ? VertexClusters{} : out;
 }
 
