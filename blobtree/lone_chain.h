@@ -1,0 +1,43 @@
+// Cells in which nothing but one chain is active: there the surface is exactly the sphere-swept polyline of that chain
+// (field.md section 3), and can be met or followed in closed form.
+#pragma once
+
+#include "blobtree/field.h"
+#include "blobtree/nodes.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace cambium {
+
+/// A view: valid while the field it is of (or its cover) lives. Cheap to copy.
+class LoneChain {
+ public:
+  /// nullopt where anything else is active, the chain is warped, or its strength is not 1. Cost: constant.
+  static std::optional<LoneChain> of(const PrunedField& field);
+
+  std::uint32_t primitive() const { return primitive_; }   ///< as Contribution::primitive
+  std::uint32_t branch() const { return branch_; }
+  std::uint32_t order() const { return order_; }
+  /// All nodes of the chain, root to tip, in world space; at least two. Node k of one chain is the same in all its cells.
+  std::span<const ChainNode> nodes() const { return nodes_; }
+
+  /// Those of its segments that are active here: the surface in the cell is that of their union.
+  std::size_t segment_count() const { return atoms_.size(); }
+  /// The k-th: it lies between nodes()[number] and nodes()[number + 1]. Ascending, perhaps with gaps.
+  std::uint32_t segment_number(std::size_t k) const { return atoms_[k] - first_atom_; }
+  std::array<ChainNode, 2> segment(std::size_t k) const {
+    const std::uint32_t number = segment_number(k);
+    return {nodes_[number], nodes_[number + 1]};
+  }
+
+ private:
+  LoneChain() = default;
+  std::uint32_t primitive_ = 0, branch_ = 0, order_ = 0, first_atom_ = 0;
+  std::span<const ChainNode> nodes_;
+  std::span<const std::uint32_t> atoms_;
+};
+
+}  // namespace cambium
