@@ -2,8 +2,8 @@
 #pragma once
 
 #include "blobtree/surface_cover.h"
+#include "raytrace/camera.h"
 #include "raytrace/ray_root.h"
-#include "raytrace/render.h"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 // Sun, sky and ground: where light comes from.
 #pragma once
 
-#include "raytrace/render.h"
+#include "raytrace/light.h"
 
 #include <array>
 

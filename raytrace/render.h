@@ -4,29 +4,13 @@
 #include "blobtree/field.h"
 #include "blobtree/run_options.h"
 #include "raytrace/bark.h"
+#include "raytrace/camera.h"
 #include "raytrace/film.h"
+#include "raytrace/light.h"
 
 #include <optional>
 
 namespace cambium {
-
-struct Camera {
-  std::optional<Vec3> eye, target;         ///< unset: framed on the field (or on `frame`)
-  std::optional<Box> frame;                ///< what to frame instead of the whole field
-  double azimuth = 0.6, elevation = 0.05;  ///< radians, direction from which an automatic camera looks
-  double field_of_view = 0.61;             ///< radians, vertical
-  double margin = 1.06;                    ///< of automatic framing
-};
-
-struct Light {
-  double sun_azimuth = -0.7, sun_elevation = 0.75;  ///< radians
-  double sun_size = 0.01;                           ///< angular radius, radians
-  Vec3 sun_color{2.7, 2.45, 2.05};                   ///< linear
-  Vec3 sky_zenith{0.24, 0.42, 0.80}, sky_horizon{0.72, 0.80, 0.90};
-  Vec3 ground_color{0.20, 0.185, 0.135};
-  bool ground = true;                               ///< a plane that takes shadow at ground_height
-  std::optional<double> ground_height;              ///< unset: the axis end of the lowest primitive (a trunk's root)
-};
 
 struct RenderOptions {
   int width = 768, height = 1024;
