@@ -12,8 +12,14 @@ struct CameraSample {
   Vec3 ambient{0.0};       ///< light from sky and surroundings, not yet multiplied by albedo
   Vec3 albedo{0.0};
   Vec3 normal{0.0};        ///< geometric, world; zero on a miss
+  Vec3 position{0.0};      ///< world, metres; zero on a miss
+  glm::dvec2 uv{0.0};      ///< the covering primitive's own coordinates: turns round it, metres along it
   double depth = kInfinity;
   double branch = -1;
+  double order = -1;       ///< branch order, the trunk is 0; -1 off the tree
+  double ridge = 0;        ///< weight of the branch bark ridges
+  double occlusion = 0;    ///< share of the cosine-weighted hemisphere above the point that something near hides; 1: all of it
+  double alpha = 1;        ///< 0 where the background is transparent; light is premultiplied by it
   int rays = 0;
 
   Vec3 color() const { return direct + albedo * ambient; }

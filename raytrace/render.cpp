@@ -3,7 +3,7 @@
 #include "blobtree/input_error.h"
 #include "blobtree/surface_cover.h"
 #include "raytrace/framing.h"
-#include "raytrace/shading.h"
+#include "raytrace/path_tracer.h"
 #include "raytrace/smoothing.h"
 #include "raytrace/tone.h"
 
@@ -61,8 +61,8 @@ class Progress {
 
 class Frame {
  public:
-  Frame(const RenderOptions& options, const View& view, const Shading& shading, const RunOptions& run)
-      : options_(options), view_(view), shading_(shading), run_(run), sums_(std::size_t(options.width) * options.height) {}
+  Frame(const RenderOptions& options, const View& view, const PathTracer& paths, const RunOptions& run)
+      : options_(options), view_(view), paths_(paths), run_(run), sums_(std::size_t(options.width) * options.height) {}
 
   /// Takes samples first..last-1 of every wanted pixel (all if wanted is empty). False if cancelled.
   bool take(int first, int last, const std::vector<std::uint8_t>& wanted, Progress& progress) {
@@ -153,7 +153,7 @@ class Frame {
   int add_sample(Evaluator& evaluator, int x, int y, std::uint32_t s, PixelSum& sum) const {
     const PixelSampler sampler(options_.seed, x, y);
     const auto [jx, jy] = sampler.pair(s, Use::kPixel);
-    const CameraSample sample = shading_.sample(evaluator, view_.ray(x + jx, y + jy), sampler, s);
+    const CameraSample sample = paths_.sample(evaluator, view_.ray(x + jx, y + jy), sampler, s);
     sum.direct += glm::vec3(sample.direct);
     sum.albedo += glm::vec3(sample.albedo);
     sum.lit += glm::vec3(sample.albedo * sample.ambient);
@@ -174,7 +174,7 @@ class Frame {
 
   const RenderOptions& options_;
   const View& view_;
-  const Shading& shading_;
+  const PathTracer& paths_;
   const RunOptions& run_;
   std::vector<PixelSum> sums_;
   tbb::enumerable_thread_specific<Evaluator> evaluators_;
@@ -232,8 +232,8 @@ std::optional<Rendered> render_in_arena(const Field& field, const RenderOptions&
 
   const auto trace_start = Clock::now();
   const Bark bark(options.bark, options.seed);
-  const Shading shading(tracer, bark, options.light, ground, view.pixel_angle());
-  Frame film(options, view, shading, run);
+  const PathTracer paths(tracer, bark, options.light, ground, view.pixel_angle());
+  Frame film(options, view, paths, run);
   const int base = std::min(kBaseSamples, options.samples);
   const double pixels = double(options.width) * options.height;
   Progress first(run, pixels * base * 2);

@@ -14,9 +14,9 @@ struct Ground {
   double fade = 1;         ///< metres from the camera over which it goes into the horizon
 };
 
-class Shading {
+class PathTracer {
  public:
-  Shading(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground, double pixel_angle);
+  PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground, double pixel_angle);
 
   CameraSample sample(Evaluator& evaluator, const Ray& ray, const PixelSampler& sampler, std::uint32_t index) const;
 

@@ -1,4 +1,4 @@
-#include "raytrace/shading.h"
+#include "raytrace/path_tracer.h"
 
 #include "raytrace/bark_pattern.h"
 
@@ -11,14 +11,20 @@ namespace {
 // Shadow rays start this far off the surface: far above the root's 1e-6, far below what an eye sees.
 constexpr double kOffsetRadii = 3e-4;
 
-double main_branch(Evaluator& evaluator, const PrunedField& field, const Vec3& p) {
+/// What covers the point, and where on it that is.
+void describe(Evaluator& evaluator, const PrunedField& field, const Vec3& p, CameraSample& out) {
   thread_local std::vector<Contribution> contributions;
   evaluator.contributions(field, p, contributions);
-  double weight = 0, branch = -1;
+  double weight = 0;
   for (const Contribution& c : contributions) {
-    if (c.weight > weight) weight = c.weight, branch = c.branch;
+    if (!(c.weight > weight)) continue;
+    weight = c.weight;
+    out.branch = c.branch;
+    out.order = c.order;
+    out.uv = {c.u, c.v};
   }
-  return branch;
+  out.ridge = evaluator.surface_traits(field, p).ridge;
+  out.position = p;
 }
 
 /// Trampled soil and grass: two octaves of world-space mottling that fade before they alias.
@@ -34,11 +40,12 @@ double mottle(const Vec3& p, double footprint) {
 
 }  // namespace
 
-Shading::Shading(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground, double pixel_angle)
+PathTracer::PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground,
+                       double pixel_angle)
     : tracer_(tracer), bark_(bark), lighting_(light), ground_color_(light.ground_color), ground_(ground),
       pixel_angle_(pixel_angle) {}
 
-CameraSample Shading::sample(Evaluator& evaluator, const Ray& ray, const PixelSampler& sampler, std::uint32_t index) const {
+CameraSample PathTracer::sample(Evaluator& evaluator, const Ray& ray, const PixelSampler& sampler, std::uint32_t index) const {
   const auto hit = tracer_.intersect(evaluator, ray);
   double to_ground = kInfinity;
   if (ground_ && ray.direction.z < 0 && ray.origin.z > ground_->height) {
@@ -52,12 +59,12 @@ CameraSample Shading::sample(Evaluator& evaluator, const Ray& ray, const PixelSa
   return out;
 }
 
-Vec3 Shading::sky_from(Evaluator& evaluator, const Vec3& p, const Vec3& normal, const std::array<double, 2>& sample) const {
+Vec3 PathTracer::sky_from(Evaluator& evaluator, const Vec3& p, const Vec3& normal, const std::array<double, 2>& sample) const {
   const Ray ray{p, cosine_direction(normal, sample)};
   return tracer_.occluded(evaluator, ray) ? lighting_.hidden() : lighting_.sky(ray.direction);
 }
 
-CameraSample Shading::on_surface(Evaluator& evaluator, const Ray& ray, const SurfaceHit& hit, const PixelSampler& sampler,
+CameraSample PathTracer::on_surface(Evaluator& evaluator, const Ray& ray, const SurfaceHit& hit, const PixelSampler& sampler,
                                  std::uint32_t index) const {
   const PrunedField field = tracer_.cover().field(hit.cell);
   const Vec3 p = glm::clamp(ray.at(hit.t), field.box().lo, field.box().hi);
@@ -66,7 +73,7 @@ CameraSample Shading::on_surface(Evaluator& evaluator, const Ray& ray, const Sur
   CameraSample out;
   out.normal = steepness > 0 ? -gradient.gradient / steepness : -ray.direction;
   out.depth = hit.t;
-  out.branch = main_branch(evaluator, field, p);
+  describe(evaluator, field, p, out);
   out.rays = 2;
 
   const double footprint = hit.t * pixel_angle_;
@@ -91,12 +98,13 @@ CameraSample Shading::on_surface(Evaluator& evaluator, const Ray& ray, const Sur
   return out;
 }
 
-CameraSample Shading::on_ground(Evaluator& evaluator, const Ray& ray, double t, const PixelSampler& sampler,
+CameraSample PathTracer::on_ground(Evaluator& evaluator, const Ray& ray, double t, const PixelSampler& sampler,
                                 std::uint32_t index) const {
   CameraSample out;
   const Vec3 p{ray.at(t).x, ray.at(t).y, ground_->height};
   out.rays = 1;
   out.depth = t;
+  out.position = p;
   out.normal = {0, 0, 1};
   const double haze = 1 - std::exp(-std::pow(t / ground_->fade, 1.5));
   const double footprint = t * pixel_angle_ / std::max(0.02, -ray.direction.z);
