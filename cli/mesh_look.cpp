@@ -50,7 +50,7 @@ MeshLook mesh_look(const Recipe& recipe, bool takes_textures) {
 
 SurfaceColor vertex_colors(const Bark& bark) {
   return [&bark](std::span<const Contribution> contributions, const SurfaceTraits& traits, const Vec3&, const Vec3&) {
-    const Vec3 albedo = bark.look(contributions, traits).albedo;
+    const Vec3 albedo = bark.glance(contributions, traits).albedo;
     return std::array<std::uint8_t, 4>{srgb_byte(albedo.x), srgb_byte(albedo.y), srgb_byte(albedo.z), 255};
   };
 }

@@ -71,14 +71,21 @@ const BarkMaterial& Bark::material(std::uint32_t order) const {
   return by_order_[std::min<std::size_t>(order, by_order_.size() - 1)];
 }
 
-BarkLook Bark::look(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& /*normal*/, double footprint) const {
-  std::vector<Contribution>& contributions = scratch();
-  evaluator.contributions(field, p, contributions);
-  return look(contributions, evaluator.surface_traits(field, p), footprint);
+BarkLook Bark::look(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint) const {
+  BarkLook out = glance(evaluator, field, p, footprint);
+  out.normal = shading_normal(evaluator, field, p, normal, footprint);
+  return out;
 }
 
-BarkLook Bark::look(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint) const {
-  BarkLook out{Vec3(0.0), 0, 0};
+BarkLook Bark::glance(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const {
+  std::vector<Contribution>& contributions = scratch();
+  evaluator.contributions(field, p, contributions);
+  return glance(contributions, evaluator.surface_traits(field, p), footprint);
+}
+
+BarkLook Bark::glance(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint) const {
+  BarkLook out;
+  out.height = 0;
   double total = 0;
   const Contribution* main = nullptr;
   for (const Contribution& c : contributions) {
@@ -98,7 +105,15 @@ BarkLook Bark::look(std::span<const Contribution> contributions, const SurfaceTr
     total += c.weight;
     if (!main || c.weight > main->weight) main = &c;
   }
-  if (!main) return {by_order_[0].color, 1, 0};
+  if (!main) {
+    out.albedo = by_order_[0].color;
+    out.height = 1;
+    return out;
+  }
+  out.branch = main->branch;
+  out.order = main->order;
+  out.uv = {main->u, main->v};
+  out.ridge = traits.ridge;
   out.albedo /= total;
   out.height /= total;
   out.relief /= total;
@@ -119,27 +134,18 @@ BarkLook Bark::look(std::span<const Contribution> contributions, const SurfaceTr
   return out;
 }
 
-BarkLook Bark::relief_at(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const {
+double Bark::relief_at(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const {
   std::vector<Contribution>& contributions = scratch();
   evaluator.contributions(field, p, contributions);
-  BarkLook out{Vec3(0.0), 0, 0};
-  double total = 0;
+  double sum = 0, total = 0;
   for (const Contribution& c : contributions) {
     if (!(c.weight > 0)) continue;
     const BarkMaterial& m = material(c.order);
     const BarkTexel texel = bark_pattern(m.style, m.scale, c.u, c.v, c.radius, hash_of(seed_, c.branch), footprint);
-    out.height += c.weight * texel.height;
-    out.relief += c.weight * texel.height * bark_depth(m.style) * c.radius;
+    sum += c.weight * texel.height * bark_depth(m.style) * c.radius;
     total += c.weight;
   }
-  if (total <= 0) return {};
-  out.height /= total;
-  out.relief /= total;
-  return out;
-}
-
-double Bark::height(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const {
-  return relief_at(evaluator, field, p, footprint).height;
+  return total > 0 ? sum / total : 0;
 }
 
 Vec3 Bark::shading_normal(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal,
@@ -151,9 +157,9 @@ Vec3 Bark::shading_normal(Evaluator& evaluator, const PrunedField& field, const 
   const Vec3 s = glm::normalize(glm::cross(side, normal)), t = glm::cross(normal, s);
   // Just outside its box the pruned field lacks only what is about to fade in, so differences may reach across: turning them
   // round at the box would draw its outline on the bark.
-  const double here = relief_at(evaluator, field, p, footprint).relief;
-  const double ds = (relief_at(evaluator, field, p + step * s, footprint).relief - here) / step;
-  const double dt = (relief_at(evaluator, field, p + step * t, footprint).relief - here) / step;
+  const double here = relief_at(evaluator, field, p, footprint);
+  const double ds = (relief_at(evaluator, field, p + step * s, footprint) - here) / step;
+  const double dt = (relief_at(evaluator, field, p + step * t, footprint) - here) / step;
   const double slope = std::hypot(ds, dt), limit = 1.1;
   const double scale = slope > limit ? limit / slope : 1;
   return glm::normalize(normal - scale * (ds * s + dt * t));

@@ -29,11 +29,16 @@ struct BarkMaterial {
 /// Errors: InputError naming the file if it cannot be read as an image.
 std::shared_ptr<const TextureImage> load_texture(const std::filesystem::path& path);
 
-/// Bark at one surface point.
+/// Bark at one surface point, and what a picture's layers say of it.
 struct BarkLook {
-  Vec3 albedo{0.0};    ///< linear
-  double height = 1;   ///< 1 on an outer plate, 0 in a crack
-  double relief = 0;   ///< height in metres: height times how deep this bark's cracks are
+  Vec3 albedo{0.0};        ///< linear
+  double roughness = 0.8;  ///< [0.05, 1], of a microfacet model where 1 is dull
+  Vec3 normal{0.0};        ///< unit, as the bark's relief tilts the surface's; zero from glance()
+  double height = 1;       ///< 1 on an outer plate, 0 in a crack
+  double relief = 0;       ///< height in metres: height times how deep this bark's cracks are
+  double ridge = 0;        ///< of the surface traits
+  double branch = -1, order = -1;   ///< of the primitive that contributes most; -1 where none does
+  glm::dvec2 uv{0.0};      ///< its own coordinates: turns, metres
 };
 
 /// What covers a surface point, blended over contributing primitives: sum f_i a_i / sum f_i, then wood on cut faces, darker bark
@@ -41,20 +46,17 @@ struct BarkLook {
 class Bark {
  public:
   explicit Bark(std::vector<BarkMaterial> by_order, std::uint64_t seed = 0);  ///< empty: the built-in poplar
+  /// Everything, for what a camera sees. normal: of the surface, unit.
   BarkLook look(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint = 0) const;
-  /// The same where contributions and traits are known.
-  BarkLook look(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint = 0) const;
-  Vec3 albedo(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint = 0) const {
-    return look(evaluator, field, p, normal, footprint).albedo;
-  }
-  /// Height in [0,1] of the bark at the point; 1 outside, 0 in a crack.
-  double height(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint = 0) const;
-  /// The normal that the bark's relief gives the surface (unit), by differences of the relief in the tangent plane.
-  Vec3 shading_normal(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint) const;
+  /// The same without its normal, for less than half the cost: what a bounce needs.
+  BarkLook glance(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint = 0) const;
+  /// A glance where contributions and traits are known.
+  BarkLook glance(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint = 0) const;
 
  private:
   const BarkMaterial& material(std::uint32_t order) const;
-  BarkLook relief_at(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const;
+  double relief_at(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const;
+  Vec3 shading_normal(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint) const;
 
   std::vector<BarkMaterial> by_order_;
   std::uint64_t seed_ = 0;

@@ -11,22 +11,6 @@ namespace {
 // Shadow rays start this far off the surface: far above the root's 1e-6, far below what an eye sees.
 constexpr double kOffsetRadii = 3e-4;
 
-/// What covers the point, and where on it that is.
-void describe(Evaluator& evaluator, const PrunedField& field, const Vec3& p, CameraSample& out) {
-  thread_local std::vector<Contribution> contributions;
-  evaluator.contributions(field, p, contributions);
-  double weight = 0;
-  for (const Contribution& c : contributions) {
-    if (!(c.weight > weight)) continue;
-    weight = c.weight;
-    out.branch = c.branch;
-    out.order = c.order;
-    out.uv = {c.u, c.v};
-  }
-  out.ridge = evaluator.surface_traits(field, p).ridge;
-  out.position = p;
-}
-
 /// Trampled soil and grass: two octaves of world-space mottling that fade before they alias.
 double mottle(const Vec3& p, double footprint) {
   double sum = 0, amplitude = 0.10;
@@ -73,13 +57,16 @@ CameraSample PathTracer::on_surface(Evaluator& evaluator, const Ray& ray, const 
   CameraSample out;
   out.normal = steepness > 0 ? -gradient.gradient / steepness : -ray.direction;
   out.depth = hit.t;
-  describe(evaluator, field, p, out);
+  out.position = p;
   out.rays = 2;
 
   const double footprint = hit.t * pixel_angle_;
   const BarkLook look = bark_.look(evaluator, field, p, out.normal, footprint);
   out.albedo = look.albedo;
-  const Vec3 bumped = bark_.shading_normal(evaluator, field, p, out.normal, footprint);
+  out.branch = look.branch;
+  out.order = look.order;
+  out.ridge = look.ridge;
+  out.uv = look.uv;
 
   const double radius = field.smallest_radius() < kInfinity ? field.smallest_radius() : glm::length(field.box().size());
   const Vec3 start = p + kOffsetRadii * radius * out.normal;
@@ -90,7 +77,7 @@ CameraSample PathTracer::on_surface(Evaluator& evaluator, const Ray& ray, const 
   const Vec3 to_sun = lighting_.towards_sun(sampler.pair(index, Use::kSun));
   const double facing = glm::dot(out.normal, to_sun);
   // The bumped normal may not light what turns away: fade it in over the terminator.
-  const double cosine = std::max(0.0, glm::dot(bumped, to_sun)) * std::clamp(facing / 0.12, 0.0, 1.0);
+  const double cosine = std::max(0.0, glm::dot(look.normal, to_sun)) * std::clamp(facing / 0.12, 0.0, 1.0);
   if (cosine > 0) {
     ++out.rays;
     if (!tracer_.occluded(evaluator, {start, to_sun})) out.direct = out.albedo * lighting_.sun_color() * cosine;

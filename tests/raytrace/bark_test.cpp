@@ -69,7 +69,7 @@ TEST(BarkPattern, FadesWhereAPixelCoversManyPlates) {
 
 Vec3 color_at(const Bark& bark, const Field& field, const Vec3& p) {
   Evaluator evaluator;
-  return bark.albedo(evaluator, field.prune(field.bounds()), p, {1, 0, 0}, 10.0);  // far away: the mean colour
+  return bark.glance(evaluator, field.prune(field.bounds()), p, 10.0).albedo;  // far away: the mean colour
 }
 
 TEST(Bark, OrdersAreVisiblyDifferentAndTheLastGoesOn) {
@@ -112,8 +112,11 @@ TEST(Bark, LooksTheSameFromWhatIsKnownOfAPoint) {
     const Vec3 p(x, 0.02, 0.1);
     std::vector<Contribution> contributions;
     evaluator.contributions(whole, p, contributions);
-    const BarkLook known = bark.look(contributions, evaluator.surface_traits(whole, p));
-    EXPECT_EQ(known.albedo, bark.look(evaluator, whole, p, {0, 0, 1}).albedo);
+    const BarkLook known = bark.glance(contributions, evaluator.surface_traits(whole, p));
+    const BarkLook seen = bark.look(evaluator, whole, p, {0, 0, 1});
+    EXPECT_EQ(known.albedo, seen.albedo);
+    EXPECT_EQ(known.roughness, seen.roughness);
+    EXPECT_EQ(known.branch, seen.branch);
   }
 }
 
@@ -133,7 +136,7 @@ TEST(Bark, TheShadingNormalIsUnitAndTiltsOnlyModestly) {
   for (int i = 0; i < 300; ++i) {
     const Vec3 normal = glm::normalize(Vec3(std::cos(0.1 * i), std::sin(0.1 * i), 0));
     const Vec3 p = Vec3(0.03, 0, 0.3 + 0.004 * i) + 0.17 * normal;
-    const Vec3 bumped = bark.shading_normal(evaluator, pruned, p, normal, 1e-4);
+    const Vec3 bumped = bark.look(evaluator, pruned, p, normal, 1e-4).normal;
     EXPECT_NEAR(glm::length(bumped), 1, 1e-9);
     EXPECT_GT(glm::dot(bumped, normal), 0.6);
     largest = std::max(largest, 1 - glm::dot(bumped, normal));
