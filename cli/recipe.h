@@ -34,6 +34,17 @@ struct BarkRecipe {
   SourceLocation texture_named_at;
 };
 
+/// A branch that a recipe names by its number.
+struct NamedBranch {
+  std::uint32_t id = 0;
+  SourceLocation at;
+};
+
+/// [render]: the options, and what they say by branches until the tree is there (close_up.h).
+struct RenderRecipe : RenderOptions {
+  std::optional<NamedBranch> close_up, focus_branch;
+};
+
 /// [mesh].
 struct MeshRecipe {
   PolygonizeOptions polygonize;
@@ -46,7 +57,7 @@ struct Recipe {
   SurfaceOptions surface;
   std::vector<SourceLocation> prunes_at, scars_at;  ///< of surface.prunes and surface.scars
   std::vector<BarkRecipe> bark;                     ///< by branch order, the last goes on; empty: the built-in
-  RenderOptions render;                             ///< its bark is empty
+  RenderRecipe render;                              ///< its bark is empty
   MeshRecipe mesh;
   VolumeOptions volume;
 };

@@ -11,23 +11,50 @@ namespace {
 
 constexpr std::int64_t kLargestInteger = std::numeric_limits<std::int64_t>::max();
 
-void read_frame(const RecipeValue& v, Camera& camera) {
+void read_frame(const RecipeValue& v, RenderRecipe& r) {
   const auto corners = v.elements(2);
   Box frame;
   frame.extend(corners[0].point());
   frame.extend(corners[1].point());
   if (!(glm::length(frame.size()) > 0)) v.refuse("two different corners");
-  camera.frame = frame;
+  r.camera.frame = frame;
 }
 
-const KeyRule<Camera> kCameraKeys[] = {
-    {"eye", [](const RecipeValue& v, Camera& c) { c.eye = v.point(); }},
-    {"target", [](const RecipeValue& v, Camera& c) { c.target = v.point(); }},
-    {"azimuth", [](const RecipeValue& v, Camera& c) { c.azimuth = v.degrees(); }},
-    {"elevation", [](const RecipeValue& v, Camera& c) { c.elevation = v.number(-89, 89) * std::numbers::pi / 180; }},
-    {"fov", [](const RecipeValue& v, Camera& c) { c.field_of_view = v.number(0.1, 170) * std::numbers::pi / 180; }},
-    {"margin", [](const RecipeValue& v, Camera& c) { c.margin = v.number(0.1, 100); }},
+NamedBranch named_branch(const RecipeValue& v) {
+  return {static_cast<std::uint32_t>(v.integer(0, std::numeric_limits<std::uint32_t>::max())), v.location()};
+}
+
+void read_fov(const RecipeValue& v, RenderRecipe& r) {
+  if (r.camera.focal_length) v.refuse("either focal_length or fov, not both");
+  r.camera.field_of_view = v.number(0.1, 170) * std::numbers::pi / 180;
+}
+
+void read_focus(const RecipeValue& v, RenderRecipe& r) {
+  if (v.is_array()) {
+    r.camera.focus = v.point();
+  } else {
+    r.focus_branch = named_branch(v);
+  }
+}
+
+void read_focus_distance(const RecipeValue& v, RenderRecipe& r) {
+  if (r.camera.focus || r.focus_branch) v.refuse("either focus or focus_distance, not both");
+  r.camera.focus_distance = v.positive_length();
+}
+
+const KeyRule<RenderRecipe> kCameraKeys[] = {
+    {"eye", [](const RecipeValue& v, RenderRecipe& r) { r.camera.eye = v.point(); }},
+    {"target", [](const RecipeValue& v, RenderRecipe& r) { r.camera.target = v.point(); }},
+    {"azimuth", [](const RecipeValue& v, RenderRecipe& r) { r.camera.azimuth = v.degrees(); }},
+    {"elevation", [](const RecipeValue& v, RenderRecipe& r) { r.camera.elevation = v.number(-89, 89) * std::numbers::pi / 180; }},
+    {"focal_length", [](const RecipeValue& v, RenderRecipe& r) { r.camera.focal_length = v.positive_length(); }},
+    {"fov", read_fov},
+    {"f_number", [](const RecipeValue& v, RenderRecipe& r) { r.camera.f_number = v.number(0.1, 1e6); }},
+    {"focus", read_focus},
+    {"focus_distance", read_focus_distance},
+    {"margin", [](const RecipeValue& v, RenderRecipe& r) { r.camera.margin = v.number(0.1, 100); }},
     {"frame", read_frame},
+    {"close_up", [](const RecipeValue& v, RenderRecipe& r) { r.close_up = named_branch(v); }},
 };
 
 const KeyRule<Light> kLightKeys[] = {
@@ -42,7 +69,7 @@ const KeyRule<Light> kLightKeys[] = {
     {"ground_height", [](const RecipeValue& v, Light& l) { l.ground_height = v.length(); }},
 };
 
-void read_image_size(const RecipeValue& v, RenderOptions& r) {
+void read_image_size(const RecipeValue& v, RenderRecipe& r) {
   if (v.is_array()) {
     const auto sides = v.elements(2);
     r.width = static_cast<int>(sides[0].integer(1, 65536));
@@ -53,19 +80,19 @@ void read_image_size(const RecipeValue& v, RenderOptions& r) {
   }
 }
 
-const KeyRule<RenderOptions> kRenderKeys[] = {
+const KeyRule<RenderRecipe> kRenderKeys[] = {
     {"size", read_image_size},
-    {"samples", [](const RecipeValue& v, RenderOptions& r) { r.samples = static_cast<int>(v.integer(1, 65536)); }},
-    {"exposure", [](const RecipeValue& v, RenderOptions& r) { r.exposure = v.positive(); }},
+    {"samples", [](const RecipeValue& v, RenderRecipe& r) { r.samples = static_cast<int>(v.integer(1, 65536)); }},
+    {"exposure", [](const RecipeValue& v, RenderRecipe& r) { r.exposure = v.positive(); }},
     {"seed",
-     [](const RecipeValue& v, RenderOptions& r) { r.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
-    {"background", [](const RecipeValue& v, RenderOptions& r) { r.light.sky_zenith = r.light.sky_horizon = v.color(); }},
-    {"camera", [](const RecipeValue& v, RenderOptions& r) { read_table(v, kCameraKeys, r.camera); }},
-    {"light", [](const RecipeValue& v, RenderOptions& r) { read_table(v, kLightKeys, r.light); }},
+     [](const RecipeValue& v, RenderRecipe& r) { r.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
+    {"background", [](const RecipeValue& v, RenderRecipe& r) { r.light.sky_zenith = r.light.sky_horizon = v.color(); }},
+    {"camera", [](const RecipeValue& v, RenderRecipe& r) { read_table(v, kCameraKeys, r); }},
+    {"light", [](const RecipeValue& v, RenderRecipe& r) { read_table(v, kLightKeys, r.light); }},
 };
 
 }  // namespace
 
-void read_render(const RecipeValue& table, RenderOptions& options) { read_table(table, kRenderKeys, options); }
+void read_render(const RecipeValue& table, RenderRecipe& render) { read_table(table, kRenderKeys, render); }
 
 }  // namespace cambium

@@ -1,12 +1,12 @@
 // The [render] table of a recipe: picture, camera and light.
 #pragma once
 
+#include "cli/recipe.h"
 #include "cli/recipe_value.h"
-#include "raytrace/render.h"
 
 namespace cambium {
 
 /// Errors: InputError with the place, as RecipeValue's.
-void read_render(const RecipeValue& table, RenderOptions& options);
+void read_render(const RecipeValue& table, RenderRecipe& render);
 
 }  // namespace cambium

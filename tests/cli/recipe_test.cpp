@@ -61,6 +61,9 @@ samples = 4
 background = "#ffffff"
 [render.camera]
 azimuth = 180
+f_number = 2.8
+focus = [0, 0, "1m"]
+close_up = 3
 frame = [[1, 1, 1], [0, 0, 0]]
 [render.light]
 ground = false
@@ -104,6 +107,10 @@ TEST(Recipe, EveryPartIsRead) {
   EXPECT_EQ(recipe.render.light.sky_zenith, Vec3(1.0));
   EXPECT_FALSE(recipe.render.light.ground);
   EXPECT_EQ(recipe.render.camera.frame->hi, Vec3(1.0));
+  EXPECT_EQ(recipe.render.camera.f_number, 2.8);
+  EXPECT_EQ(recipe.render.camera.focus, Vec3(0, 0, 1));
+  EXPECT_EQ(recipe.render.close_up->id, 3u);
+  EXPECT_GT(recipe.render.close_up->at.line, 40);
   EXPECT_DOUBLE_EQ(*recipe.mesh.polygonize.tolerance, 0.0005);
   EXPECT_EQ(recipe.mesh.lod, (std::vector<std::size_t>{1200000, 50000, 20000}));
   EXPECT_FALSE(recipe.mesh.occlusion);
@@ -165,6 +172,10 @@ TEST(Recipe, MalformedOnesAreRefusedAtTheirPlace) {
       {"[render]\nsize = \"0x0\"", 2, 8, "'0x0'"},
       {"[render]\nsize = [0, 10]", 2, 9, "the number 0"},
       {"[render.camera]\nfov = 0", 2, 7, "the number 0"},
+      {"[render.camera]\nf_number = 0", 2, 12, "the number 0"},
+      {"[render.camera]\nfocal_length = \"50mm\"\nfov = 30", 3, 7, "the number 30"},
+      {"[render.camera]\nfocus = 3\nfocus_distance = 1", 3, 18, "the number 1"},
+      {"[render.camera]\nclose_up = -1", 2, 12, "the number -1"},
       {"[render.camera]\nframe = [[0,0,0],[0,0,0]]", 2, 9, "an array of 2"},
       {"[mesh]\nvoxel = 0.1\ntolerance = 0.1", 3, 13, "the number 0.1"},
       {"[mesh]\nlod = 5", 2, 7, "the number 5"},

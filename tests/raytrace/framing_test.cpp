@@ -39,6 +39,47 @@ TEST(Frame, TheTreeFillsThePictureUpToTheMargin) {
   }
 }
 
+TEST(Frame, ATurntableKeepsItsDistanceAndLosesNothing) {
+  const std::vector<Box> boxes{{{-1, -1, 0}, {1, 1, 0.5}}, {{0.2, 0.1, 0}, {0.5, 0.4, 12}}, {{-3, 0, 8}, {-2.5, 1, 9}}};
+  Box whole;
+  for (const Box& box : boxes) whole.extend(box);
+  const Vec3 center = whole.center();
+  double distance = 0, fullest = 0;
+  for (int k = 0; k < 24; ++k) {
+    Camera camera;
+    camera.turntable = {k, 24};
+    const View view = frame(camera, boxes, 600, 800);
+    const auto [x, y] = extent(view, boxes);
+    fullest = std::max({fullest, x, y});
+    const double here = std::hypot(view.eye.x - center.x, view.eye.y - center.y);
+    if (k == 0) distance = here;
+    EXPECT_NEAR(here, distance, 1e-9);
+    EXPECT_NEAR(std::remainder(std::atan2(view.eye.y - center.y, view.eye.x - center.x) - camera.azimuth - 2 * std::acos(-1.0) * k / 24,
+                               2 * std::acos(-1.0)), 0, 5e-3);   // circles are many-sided
+  }
+  EXPECT_LE(fullest, 1 / Camera{}.margin + 1e-9);
+  EXPECT_GT(fullest, 0.8);   // and stands no farther back than that takes
+}
+
+TEST(Frame, ATurntableTurnsAGivenEyeAboutItsTarget) {
+  Camera camera;
+  camera.eye = Vec3(5, 0, 1);
+  camera.target = Vec3(1, 0, 1);
+  camera.turntable = {1, 4};
+  const View view = frame(camera, {}, 100, 100);
+  EXPECT_LT(glm::distance(view.eye, Vec3(1, 4, 1)), 1e-12);
+  EXPECT_LT(glm::distance(view.forward, Vec3(0, -1, 0)), 1e-12);
+}
+
+TEST(Frame, FocusesOnTheMiddleOfWhatItFramesUnlessTold) {
+  const std::vector<Box> boxes{{{0, 0, 0}, {1, 1, 5}}};
+  Camera camera;
+  const View view = frame(camera, boxes, 300, 400);
+  EXPECT_NEAR(view.focus_distance, glm::dot(Vec3(0.5, 0.5, 2.5) - view.eye, view.forward), 1e-12);
+  camera.focus_distance = 0.25;
+  EXPECT_EQ(frame(camera, boxes, 300, 400).focus_distance, 0.25);
+}
+
 TEST(Frame, AGivenEyeAndTargetAreTaken) {
   Camera camera;
   camera.eye = Vec3(1, 2, 3);
