@@ -8,6 +8,7 @@
 #include "polygonize/mesh_components.h"
 #include "polygonize/patch_polygons.h"
 #include "polygonize/thinnest_radius.h"
+#include "polygonize/unseen_surface.h"
 #include "polygonize/vertex_balance.h"
 
 #include <fmt/format.h>
@@ -103,6 +104,7 @@ std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& pl
   ProgressMeter progress(run, "contouring");
   auto tree = SurfaceOctree::build(cover, plan.finer, plan.leaves, run);
   if (!tree) return std::nullopt;
+  if (std::isfinite(plan.tolerance) && !show_unseen_surface(*tree, cover, report.unseen, run)) return std::nullopt;
   progress.add(0.3);
   auto refiner = ContourRefiner::begin(*std::move(tree), cover, run);
   if (!refiner) return std::nullopt;
