@@ -33,6 +33,15 @@ std::string level_name(std::size_t level, std::size_t levels) {
 constexpr std::size_t kListedPlaces = 100;
 constexpr double kWithin = 0.999;   // of the samples; the rest may be twice as far off
 
+/// How many, and where the first of them are.
+void set_places(Job& job, const std::string& name, const std::vector<Vec3>& places) {
+  job.figures.set(name, places.size());
+  Json list = Json::array();
+  for (std::size_t i = 0; i < std::min(places.size(), kListedPlaces); ++i)
+    list.push_back(Json::array({places[i].x, places[i].y, places[i].z}));
+  if (!places.empty()) job.figures.set(name + "_at", list);
+}
+
 }  // namespace
 
 void set_level_figures(Job& job, const std::vector<Mesh>& levels, const std::vector<std::size_t>& most) {
@@ -59,11 +68,8 @@ void set_polygonize_figures(Job& job, const PolygonizeReport& report) {
   job.figures.set("rounds", report.rounds);
   job.figures.set("closed_voids", report.closed_voids);
   job.figures.set("crumbs", report.crumbs);
-  job.figures.set("uncertain", report.uncertain.size());
-  Json places = Json::array();
-  for (std::size_t i = 0; i < std::min(report.uncertain.size(), kListedPlaces); ++i)
-    places.push_back(Json::array({report.uncertain[i].x, report.uncertain[i].y, report.uncertain[i].z}));
-  if (!report.uncertain.empty()) job.figures.set("uncertain_at", places);
+  set_places(job, "uncertain", report.uncertain);
+  set_places(job, "unseen", report.unseen);
 }
 
 void set_verify_figures(Job& job, const std::vector<Verification>& levels, double tolerance) {

@@ -81,6 +81,22 @@ std::optional<SurfaceDistance::Foot> SurfaceDistance::nearest(const PrunedField&
   return slide(near, p, *landing);
 }
 
+std::optional<SurfaceDistance::Foot> SurfaceDistance::around(const PrunedField& near, const Vec3& p, double reach) {
+  constexpr int kHalvings = 9;   // of the reach, for the first look
+  const Sample here = sample(near, p);
+  for (int halvings = kHalvings; halvings >= 0; --halvings) {
+    const double step = std::ldexp(reach, -halvings);
+    for (int direction = 0; direction < 27; ++direction) {
+      const Vec3 way(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+      if (way == Vec3(0.0)) continue;
+      const Vec3 q = p + step * glm::normalize(way);
+      const Sample there = sample(near, q);
+      if ((over(there) >= 0) != (over(here) >= 0)) return slide(near, p, between(near, p, here, q, there, kRelative * step));
+    }
+  }
+  return std::nullopt;
+}
+
 SurfaceDistance::Foot SurfaceDistance::slide(const PrunedField& near, const Vec3& p, const Vec3& on_surface) {
   return slide(near, p, Landing{on_surface, sample(near, on_surface).gradient});
 }

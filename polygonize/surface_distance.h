@@ -24,6 +24,11 @@ class SurfaceDistance {
   /// times the cost. Cost: two or three samples.
   std::optional<Foot> nearest(const PrunedField& near, const Vec3& p);
 
+  /// The nearest point of the surface within `reach` as 26 straight ways from p show it: where one of them comes to the other kind,
+  /// inside or outside, the surface is between; then moved as above. For where features far smaller than `reach` lead
+  /// gradients past what is near. Never less than the true distance; nullopt where no way shows the surface. Cost: up to 260 values.
+  std::optional<Foot> around(const PrunedField& near, const Vec3& p, double reach);
+
   /// The same from a point that is known to lie on the surface; never farther than that.
   Foot slide(const PrunedField& near, const Vec3& p, const Vec3& on_surface);
 

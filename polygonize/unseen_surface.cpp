@@ -12,13 +12,17 @@ namespace cambium {
 namespace {
 
 constexpr std::size_t kLeavesPerTask = 256;
-// Of one leaf. Bounds of warped fields tell little of large cubes.
-constexpr std::size_t kMostBounds = 1024;
+constexpr std::size_t kMostCubes = 1024;   // of one leaf: bounds of warped fields tell little, however small a cube is
 
-/// What chunks of leaves were found to hold.
+struct Doubt {
+  std::uint32_t leaf;
+  Vec3 place;
+};
+
+/// What some leaves were found to hold.
 struct Found {
   std::vector<std::uint32_t> leaves;   // through which the surface passes
-  std::vector<Vec3> uncertain;
+  std::vector<Doubt> doubts;
 };
 
 /// Finds nodes fast that are near the last one.
@@ -40,6 +44,12 @@ class NodeFinder {
     return node();
   }
 
+  bool is_live(std::uint32_t leaf) {
+    const OctreeLeaf& l = tree_.leaves()[leaf];
+    const SurfaceOctree::Node at = find(l.place, l.level);
+    return at.is_leaf() && at.leaf() == leaf;
+  }
+
  private:
   SurfaceOctree::Node node() const { return path_[static_cast<std::size_t>(lowest_)]; }
 
@@ -58,7 +68,7 @@ class LeafSearch {
 
   void search(std::uint32_t leaf, Found& found) {
     const OctreeLeaf& l = tree_.leaves()[leaf];
-    if (!l.uniform() || near_.find(l.place, l.level).word != (leaf | SurfaceOctree::Node::kLeafBit)) return;   // it was cut
+    if (!l.uniform() || !near_.is_live(leaf)) return;
     const PrunedField field = cover_.cube_field(l.cell);
     inside_ = l.mask != 0;
     cubes_.assign(1, {l.place, l.level});
@@ -68,14 +78,14 @@ class LeafSearch {
       if (sibling_shows_surface(cube)) continue;   // the cheapest first
       const Box box = tree_.grid().box(cube.place, cube.level);
       if (!evaluator_.interval(field, box).contains(kIso) || neighbour_shows_surface(cube)) continue;
-      if (shows(field, box.center()) && l.level > finest_) return found.leaves.push_back(leaf);
-      if (cube.level > finest_ && cubes_.size() < kMostBounds) {
+      if (cube.level >= finest_ && l.level > finest_ && shows(field, box.center())) return found.leaves.push_back(leaf);
+      if (cube.level > 0 && cubes_.size() < kMostCubes) {
         add_parts(cube);
-      } else if (!doubtful) {
-        doubtful = box.center();
+      } else {
+        doubtful = box.center();   // the last is of the smallest
       }
     }
-    if (doubtful && !inside_) found.uncertain.push_back(*doubtful);
+    if (doubtful && !inside_) found.doubts.push_back({leaf, *doubtful});
   }
 
  private:
@@ -126,11 +136,10 @@ class LeafSearch {
     return false;
   }
 
-  // Whether a point is of the other kind than the leaf's corners; in a slot, if that is wide enough to be shown.
+  // Whether a point is of the other kind than the leaf's corners, in a plate or slot thick enough to be shown.
   bool shows(const PrunedField& field, const Vec3& p) {
     const auto differs = [&](const Vec3& q) { return (evaluator_.value(field, q) >= kIso) != inside_; };
     if (!differs(p)) return false;
-    if (!inside_) return true;
     for (int a = 0; a < 3; ++a)
       for (const double side : {-0.5, 0.5}) {
         Vec3 q = p;
@@ -149,28 +158,34 @@ class LeafSearch {
   bool inside_ = false;
 };
 
+/// Leaves from `first` on.
+std::vector<Found> search_leaves(const SurfaceOctree& tree, const SurfaceCover& cover, std::size_t first, const RunOptions& run) {
+  tbb::enumerable_thread_specific<LeafSearch> searches([&] { return LeafSearch(tree, cover); });
+  return in_chunks<Found>(tree.leaves().size() - first, kLeavesPerTask, [&](Found& part, std::size_t begin, std::size_t end) {
+    LeafSearch& search = searches.local();
+    for (std::size_t i = first + begin; i < first + end && !run.cancelled(); ++i) search.search(static_cast<std::uint32_t>(i), part);
+  });
+}
+
 }  // namespace
 
 bool show_unseen_surface(SurfaceOctree& tree, const SurfaceCover& cover, std::vector<Vec3>& uncertain, const RunOptions& run) {
+  std::vector<Doubt> doubts;
   for (std::size_t first = 0; first < tree.leaves().size();) {
     const std::size_t end = tree.leaves().size();
-    tbb::enumerable_thread_specific<LeafSearch> searches([&] { return LeafSearch(tree, cover); });
-    auto parts = in_chunks<Found>(end - first, kLeavesPerTask, [&](Found& part, std::size_t from, std::size_t to) {
-      LeafSearch& search = searches.local();
-      for (std::size_t i = first + from; i < first + to && !run.cancelled(); ++i) {
-        search.search(static_cast<std::uint32_t>(i), part);
-      }
-    });
-    if (run.cancelled()) return false;
     std::vector<std::uint32_t> to_cut;
-    for (const Found& part : parts) {
+    for (const Found& part : search_leaves(tree, cover, first, run)) {
       to_cut.insert(to_cut.end(), part.leaves.begin(), part.leaves.end());
-      uncertain.insert(uncertain.end(), part.uncertain.begin(), part.uncertain.end());
+      doubts.insert(doubts.end(), part.doubts.begin(), part.doubts.end());
     }
+    if (run.cancelled()) return false;
     first = end;
     if (!to_cut.empty()) tree.split(cover, std::move(to_cut), run);
     if (run.cancelled()) return false;
   }
+  NodeFinder finder(tree);
+  for (const Doubt& doubt : doubts)   // leaves that were cut beside others have been searched again
+    if (finder.is_live(doubt.leaf)) uncertain.push_back(doubt.place);
   return true;
 }
 

@@ -10,9 +10,9 @@
 namespace cambium {
 
 /// Cuts leaves whose corners are all of one kind until each of them shows the surface, is beside a leaf no smaller that does, or certainly
-/// holds none. Slots narrower than tree.narrow() count as wood. Appends to `uncertain` the places where wood thinner than the
-/// smallest leaves that show gaps may be missing: there the bounds of the field tell neither; at most one a leaf, in the order of leaves.
-/// False if cancelled. The same at any thread count. Cost: a bound a leaf that is not beside the surface, and at most kMostBounds.
+/// holds none; slots narrower than tree.narrow() count as wood. Appends to `uncertain` the places where wood may be missing that is
+/// thinner than leaves may be: there the field's bounds tell neither. At most one a leaf. False if cancelled. The same at any thread
+/// count. Cost: a bound for every leaf that is not beside the surface, some hundreds where that is not enough.
 bool show_unseen_surface(SurfaceOctree& tree, const SurfaceCover& cover, std::vector<Vec3>& uncertain, const RunOptions& run);
 
 }  // namespace cambium

@@ -161,7 +161,7 @@ bool measure_surface_to_mesh(const Field& field, const SurfaceSamples& samples, 
 }
 
 // From the mesh's samples to the surface. Where the gradient does not lead there, or leads far, the nearest of the surface's own
-// samples is the start of another search.
+// samples is the start of another search, and the ways around of a third.
 class MeshToSurface {
  public:
   MeshToSurface(const Mesh& mesh, const Field& field, const MeshDistance& places, const SurfaceSamples& surface, double tolerance)
@@ -256,7 +256,9 @@ class MeshToSurface {
       return distance2;
     });
     if (least < kInfinity) best = std::min(best, distance.slide(near, p, surface_.points[nearest]).distance);
-    return best;
+    if (!(best > far_ && best < kInfinity)) return best;
+    const auto other = distance.around(near, p, best);
+    return other ? std::min(best, other->distance) : best;
   }
 
   const Mesh& mesh_;

@@ -82,6 +82,35 @@ TEST(SurfaceDistance, NoneWhereTheGradientVanishes) {
   EXPECT_FALSE(nearest(field, Vec3(0.03, -0.02, 0.01)).has_value());
 }
 
+// A hair that leaves a ball's wide slope: beside it the gradient is the ball's alone, and leads to the ball.
+TEST(SurfaceDistance, AHairBesideTheWayOfTheGradientIsFoundAroundThePoint) {
+  constexpr double kHair = 1e-3;
+  BlobTreeBuilder builder;
+  const NodeId ball = builder.add(Sphere{Vec3(0), 1, 1}), hair = builder.add(Capsule{Vec3(0), Vec3(0, 0, 1.4), kHair, 1});
+  const Field field(builder.build(builder.add(Sum{{ball, hair}})));
+  const Vec3 beside(3 * kHair, 0, 1.2);
+  const auto along_gradient = nearest(field, beside, 0.05);
+  ASSERT_TRUE(along_gradient.has_value());
+  ASSERT_GT(along_gradient->distance, 0.1) << "the case this is for";
+  SurfaceDistance distance(field);
+  const auto foot = distance.around(field.prune(Box{beside, beside}.padded(0.05)), beside, 0.2);
+  ASSERT_TRUE(foot.has_value());
+  EXPECT_GT(foot->distance, kHair);
+  EXPECT_LT(foot->distance, 3 * kHair);
+  EXPECT_NEAR(field.value(foot->point), kIso, 1e-2);
+  EXPECT_NEAR(glm::length(beside - foot->point), foot->distance, 1e-12);
+}
+
+TEST(SurfaceDistance, NothingIsFoundAroundAPointFartherFromTheSurfaceThanTheReach) {
+  const Field field = testing::sphere_field(1);
+  SurfaceDistance distance(field);
+  const Vec3 p(1.33, -0.02, 0.01);
+  EXPECT_FALSE(distance.around(field.whole(), p, 0.29).has_value());
+  const auto foot = distance.around(field.whole(), p, 0.6);
+  ASSERT_TRUE(foot.has_value());
+  EXPECT_NEAR(foot->distance, 0.3, 1e-3);
+}
+
 TEST(SurfaceDistance, SlidingNeverLeadsAway) {
   const Field field = testing::fork_field();
   SurfaceDistance distance(field);
