@@ -1,5 +1,6 @@
 #include "polygonize/unseen_surface.h"
 
+#include "blobtree/lone_chain.h"
 #include "polygonize/ordered_chunks.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -71,6 +72,7 @@ class LeafSearch {
     if (!l.uniform() || !near_.is_live(leaf)) return;
     const PrunedField field = cover_.cube_field(l.cell);
     inside_ = l.mask != 0;
+    if (!inside_ && LoneChain::of(field)) return;   // nowhere thinner than the radii that leaves were sized by
     cubes_.assign(1, {l.place, l.level});
     std::optional<Vec3> doubtful;
     for (std::size_t next = 0; next < cubes_.size(); ++next) {

@@ -112,17 +112,17 @@ TEST(UnseenSurface, NothingOfThemIsReportedWhereFieldsAreMeshedWell) {
 TEST(UnseenSurface, CutsAndReportsAreTheSameAtAnyThreadCount) {
   const auto found_with = [](int threads, double thickness) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    OnOctree on = coarse_octree(plate(thickness), 0.25, 5, {.radii = kInfinity, .shortest_gap = 0.01});
+    OnOctree on = coarse_octree(plate(thickness), 0.5, 6, {.radii = kInfinity, .shortest_gap = 0.005});
     const std::size_t before = on.tree.leaves().size();
     std::vector<Vec3> uncertain;
     EXPECT_TRUE(show_unseen_surface(on.tree, on.cover, uncertain, {}));
     return std::tuple(keys(on.tree), uncertain, on.tree.leaves().size() - before);
   };
-  const auto shown = found_with(1, 0.03), doubted = found_with(1, 0.001);
+  const auto shown = found_with(1, 0.016), doubted = found_with(1, 0.001);
   EXPECT_GT(std::get<2>(shown), 0u);
   EXPECT_FALSE(std::get<1>(doubted).empty());
   for (const int threads : {2, 4}) {
-    EXPECT_EQ(found_with(threads, 0.03), shown) << threads << " threads";
+    EXPECT_EQ(found_with(threads, 0.016), shown) << threads << " threads";
     EXPECT_EQ(found_with(threads, 0.001), doubted) << threads << " threads";
   }
 }
