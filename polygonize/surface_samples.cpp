@@ -190,6 +190,13 @@ std::optional<Pass> cross_lines(const Field& field, double pitch, const RunOptio
   return pass;
 }
 
+// Where bounds tell little, as of warped fields, most cells are without surface and fill space: their number grows as the cube.
+double finest_pitch(double pitch, const Pass& pass) {
+  constexpr double kMostCells = 4'000'000;
+  if (pass.points.size() >= pass.cells) return 0;
+  return pitch * std::cbrt(static_cast<double>(pass.cells) / kMostCells);
+}
+
 std::optional<SurfaceSamples> sample_in_arena(const Field& field, std::size_t count, const RunOptions& run) {
   SurfaceSamples samples;
   if (field.bounds().empty() || count == 0) return samples;
@@ -200,12 +207,13 @@ std::optional<SurfaceSamples> sample_in_arena(const Field& field, std::size_t co
   for (double pitch = extent / 64;; pitch /= 3) {
     auto pass = cross_lines(field, pitch, run);
     if (!pass) return std::nullopt;
-    if (pass->points.size() < enough && pass->cells > 0 && pitch > extent * 0x1p-16) continue;
+    const double finest = finest_pitch(pitch, *pass);
+    if (pass->points.size() < enough && pass->cells > 0 && pitch > std::max(extent * 0x1p-16, 3 * finest)) continue;
     const double found = static_cast<double>(pass->points.size());
     samples.spacing = pitch;
     if (found < 0.9 * static_cast<double>(count) || found > 1.1 * static_cast<double>(count)) {
       if (found == 0) return samples;
-      samples.spacing = pitch * std::sqrt(found / static_cast<double>(count));
+      samples.spacing = std::max(finest, pitch * std::sqrt(found / static_cast<double>(count)));
       pass = cross_lines(field, samples.spacing, run);
       if (!pass) return std::nullopt;
     }

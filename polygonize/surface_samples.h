@@ -22,7 +22,8 @@ struct SurfaceSamples {
 /// The one bias: where a line runs through a wall or a gap of less than half the smallest surface radius nearby, both crossings
 /// are found by where the field turns, from values and slopes half a radius apart; a field that turns more than once there can
 /// hide a pair. Points: f = kIso to rounding. Fixed random numbers: the same points at any thread count.
-/// No points only where there is no surface. nullopt if cancelled. Cost: some two microseconds a point on one core.
+/// Fewer points where so little surface is in so much space that the field's bounds do not rule out that cells would be too many; none only
+/// there, and where there is no surface. nullopt if cancelled. Cost: some two microseconds a point on one core.
 std::optional<SurfaceSamples> sample_surface(const Field& field, std::size_t count, const RunOptions& run);
 
 }  // namespace cambium

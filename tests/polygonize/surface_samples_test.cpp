@@ -1,5 +1,6 @@
 #include "polygonize/surface_samples.h"
 
+#include "tests/polygonize/octrees.h"
 #include "tests/polygonize/sample_fields.h"
 
 #include <gtest/gtest.h>
@@ -87,6 +88,15 @@ TEST(SurfaceSamples, Cancelled) {
   RunOptions run;
   run.cancel = &cancel;
   EXPECT_FALSE(sample_surface(testing::sphere_field(), 1000, run).has_value());
+}
+
+// Bounds leave much of its space in doubt, and there is no surface: finer and finer lines would never find enough.
+TEST(SurfaceSamples, SpaceThatBoundsDoNotRuleOutIsNotSearchedBeyondReason) {
+  const Field field(random_blobtree(1790, 3));
+  const auto samples = sample_surface(field, 20'000, {});
+  ASSERT_TRUE(samples.has_value());
+  EXPECT_TRUE(samples->points.empty());
+  EXPECT_GT(samples->spacing, 1e-4 * testing::longest_side(field));
 }
 
 }  // namespace
