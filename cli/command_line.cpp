@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "raytrace/aov.h"
 
 namespace cambium {
 namespace {
@@ -66,8 +67,15 @@ void declare(CLI::App& app, CommandLine& line) {
   volume->add_option("--kind", line.kind, "sdf, field or fog");
   CLI::App* render = add_command(app, line, Command::kRender, "render", "a ray-traced still (.png .exr)", true);
   render->add_option("--size", line.size, "pixels, such as 768x1024");
-  render->add_option("--samples", line.samples, "most samples per pixel");
-  render->add_option("--aov", line.aovs, "depth,normal,albedo,branch")->delimiter(',')->allow_extra_args(false);
+  render->add_option("--samples", line.samples, "per pixel, as min..max such as 1..16; 16 alone: up to 16");
+  render->add_option("--noise", line.noise,
+                     "a pixel is done when the standard error of its brightness on the screen, 0 to 1, is below; 0.0175 by default");
+  render->add_option("--crop", line.crop, "x0,y0,x1,y1: only these pixels of the whole picture, the last not included");
+  render->add_option("--bits", line.bits, "of each channel of a .png: 8 or 16")->check(CLI::IsMember({8, 16}));
+  render->add_option("--aov", line.aovs,
+                     "auxiliary images, a list or all: " + aov_names() + "; layers of an .exr, files beside a .png")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   add_command(app, line, Command::kInfo, "info", "counts, bounds, radii, what conditioning did", false);
 }
 

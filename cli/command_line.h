@@ -30,7 +30,9 @@ struct CommandLine {
   bool verify = false, no_ao = false;        ///< mesh
   std::string kind;                          ///< volume
   std::string size;                          ///< render
-  std::optional<int> samples;                ///< render
+  std::string samples, crop;                 ///< render
+  std::optional<double> noise;               ///< render
+  int bits = 8;                              ///< render
   std::vector<std::string> aovs;             ///< render
 };
 

@@ -1,10 +1,14 @@
 // render: a still of the field, with its auxiliary images.
+#include <fmt/format.h>
+
 #include <memory>
 #include <set>
 #include <tuple>
 
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/recipe_render.h"
 #include "cli/units.h"
 #include "raytrace/film.h"
 #include "raytrace/render.h"
@@ -12,12 +16,18 @@
 namespace cambium {
 namespace {
 
-std::set<std::string> requested_aovs(const CommandLine& line) {
-  std::set<std::string> aovs;
+std::set<Aov> requested_aovs(const CommandLine& line) {
+  std::set<Aov> aovs;
   for (const std::string& name : line.aovs) {
-    if (name != "depth" && name != "normal" && name != "albedo" && name != "branch")
-      throw InputError({"--aov"}, "'" + name + "'", "depth, normal, albedo or branch");
-    aovs.insert(name);
+    if (name == "all") {
+      for (const AovInfo& info : all_aovs()) aovs.insert(info.aov);
+      continue;
+    }
+    try {
+      aovs.insert(aov_named(name));
+    } catch (const InputError& error) {
+      throw InputError({"--aov"}, error.found(), "all or " + error.expected());
+    }
   }
   return aovs;
 }
@@ -26,67 +36,106 @@ RenderOptions render_options(const Job& job) {
   RenderOptions options = job.recipe.render;
   const CommandLine& line = job.line;
   if (!line.size.empty()) std::tie(options.width, options.height) = parse_image_size(line.size, {"--size"});
-  if (line.samples) {
-    if (*line.samples < 1 || *line.samples > 65536)
-      throw InputError({"--samples"}, std::to_string(*line.samples), "1 to 65536");
-    options.samples = *line.samples;
+  if (!line.samples.empty()) set_samples(parse_samples(line.samples, {"--samples"}), options.sampling);
+  if (line.noise) {
+    if (!(*line.noise >= 0 && *line.noise <= 1)) throw InputError({"--noise"}, fmt::format("{}", *line.noise), "a number from 0 to 1");
+    options.sampling.noise = *line.noise;
   }
+  if (!line.crop.empty()) options.crop = parse_crop(line.crop, {"--crop"});
+  check_crop(options, {line.crop.empty() ? line.input : "--crop"});
   options.bark = load_bark(job.recipe);
+  options.aovs = requested_aovs(line);
   return options;
 }
 
-/// An auxiliary image beside a PNG: tree.png has tree.depth.png.
-struct AovFile {
-  std::string name;
-  std::filesystem::path path;
-  std::unique_ptr<OutputFile> file;
+/// The files of one picture: itself, and beside a PNG its auxiliary images: tree.png has tree.depth.png.
+class PictureFiles {
+ public:
+  PictureFiles(const std::filesystem::path& path, const ImageFormat& format, const std::set<Aov>& aovs)
+      : format_(format), image_(path) {
+    if (format.extension != ".png") return;
+    for (const Aov aov : aovs) {
+      std::filesystem::path beside = path;
+      beside.replace_extension(std::string(".") + info_of(aov).name + path.extension().string());
+      beside_.push_back({aov, beside, std::make_unique<OutputFile>(beside)});
+    }
+  }
+
+  void write(const Film& film) {
+    write_image(film, image_.temporary(), format_);
+    for (const Beside& aov : beside_) write_aov(film, aov.file->temporary(), aov.aov);
+  }
+
+  void commit() {
+    for (const Beside& aov : beside_) aov.file->commit();
+    image_.commit();
+  }
+
+  /// Their names by what they show; empty for an EXR.
+  Json names_beside() const {
+    Json names = Json::object();
+    for (const Beside& aov : beside_) names[info_of(aov.aov).name] = aov.path.string();
+    return names;
+  }
+
+ private:
+  struct Beside {
+    Aov aov;
+    std::filesystem::path path;
+    std::unique_ptr<OutputFile> file;
+  };
+
+  ImageFormat format_;
+  OutputFile image_;
+  std::vector<Beside> beside_;
 };
 
-std::vector<AovFile> aov_files(const std::filesystem::path& image, const std::set<std::string>& aovs) {
-  std::vector<AovFile> files;
-  for (const std::string& name : aovs) {
-    std::filesystem::path path = image;
-    path.replace_extension("." + name + image.extension().string());
-    files.push_back({name, path, std::make_unique<OutputFile>(path)});
-  }
-  return files;
+void report(Job& job, const Rendered& rendered) {
+  const RenderReport& report = rendered.report;
+  job.figures.set("width", rendered.film.width);
+  job.figures.set("height", rendered.film.height);
+  job.figures.set("cells", report.cells);
+  job.figures.set("rays", report.rays);
+  job.figures.set("samples", report.samples);
+  job.figures.set("samples_per_pixel", report.samples_per_pixel);
+  job.figures.add_seconds("render_trace", report.seconds_trace);
+  job.figures.add_seconds("render_develop", report.seconds_develop);
+}
+
+/// Renders and writes one picture. Interrupted after its first pass it is still written.
+Outcome make_picture(Job& job, const Renderer& renderer, const RenderOptions& options, PictureFiles& files) {
+  const auto rendered = [&] {
+    const StageTimer timer(job.figures, "render");
+    return renderer.render(options, job.run, [](int) { take_time_to_finish(); });
+  }();
+  if (!rendered) return Outcome::kInterrupted;
+  const StageTimer timer(job.figures, "write");
+  files.write(rendered->film);
+  files.commit();
+  report(job, *rendered);
+  if (!rendered->interrupted) return Outcome::kDone;
+  job.warnings.push_back(fmt::format("{} holds the last finished pass: up to {} of {} samples a pixel", job.line.output,
+                                     rendered->report.samples, options.sampling.max));
+  return Outcome::kInterrupted;
 }
 
 }  // namespace
 
 Outcome run_render(Job& job) {
-  const std::string format = require_extension(job.line.output, {".png", ".exr"});
-  const std::set<std::string> aovs = requested_aovs(job.line);
+  const ImageFormat format{require_extension(job.line.output, {".png", ".exr"}), job.line.bits};
   const RenderOptions options = render_options(job);
-  OutputFile output(job.line.output);
-  const std::vector<AovFile> beside = format == ".png" ? aov_files(job.line.output, aovs) : std::vector<AovFile>{};
+  PictureFiles files(job.line.output, format, options.aovs);
   const auto field = build_field(job);
   if (!field) return Outcome::kInterrupted;
-  std::optional<Rendered> rendered;
-  {
-    const StageTimer timer(job.figures, "render");
-    rendered = render(*field, options, job.run);
-  }
-  if (!rendered) return Outcome::kInterrupted;
-  const StageTimer timer(job.figures, "write");
-  write_image(rendered->film, output.temporary(), format, aovs);
-  for (const AovFile& aov : beside) write_aov(rendered->film, aov.file->temporary(), aov.name);
-  const RenderReport& report = rendered->report;
-  job.figures.set("width", rendered->film.width);
-  job.figures.set("height", rendered->film.height);
   job.figures.set("primitives", field->atom_count());
-  job.figures.set("cells", report.cells);
-  job.figures.set("rays", report.rays);
-  job.figures.set("samples_per_pixel", report.samples_per_pixel);
-  job.figures.add_seconds("render_cover", report.seconds_cover);
-  job.figures.add_seconds("render_trace", report.seconds_trace);
-  Json names = Json::object();
-  for (const AovFile& aov : beside) names[aov.name] = aov.path.string();
-  if (!names.empty()) job.figures.set("aovs", names);
-  if (job.run.cancelled()) return Outcome::kInterrupted;
-  for (const AovFile& aov : beside) aov.file->commit();
-  output.commit();
-  return Outcome::kDone;
+  const auto renderer = [&] {
+    const StageTimer timer(job.figures, "render_cover");
+    return Renderer::make(*field, job.run);
+  }();
+  if (!renderer) return Outcome::kInterrupted;
+  const Outcome outcome = make_picture(job, *renderer, options, files);
+  if (const Json names = files.names_beside(); !names.empty()) job.figures.set("aovs", names);
+  return outcome;
 }
 
 }  // namespace cambium

@@ -15,6 +15,7 @@ namespace {
 
 // A signal handler can reach nothing but globals.
 std::atomic<bool> interrupted{false};
+std::atomic<bool> finishing{false};
 int wake_pipe[2] = {-1, -1};
 
 constexpr std::chrono::milliseconds kGrace{120};  // with polls every 50 ms and an exit this keeps Ctrl-C below 200 ms
@@ -27,11 +28,16 @@ void on_signal(int) {
   errno = saved_errno;
 }
 
-void wait_and_end() {
+void wait_for_signal() {
   char byte = 0;
   while (::read(wake_pipe[0], &byte, 1) != 1) {
   }
+}
+
+void wait_and_end() {
+  wait_for_signal();
   std::this_thread::sleep_for(kGrace);
+  if (finishing.load()) wait_for_signal();
   OutputFile::remove_unfinished_and_exit(1);
 }
 
@@ -49,5 +55,7 @@ const std::atomic<bool>& catch_interrupts() {
   sigaction(SIGPIPE, &action, nullptr);
   return interrupted;
 }
+
+void take_time_to_finish() { finishing.store(true); }
 
 }  // namespace cambium

@@ -1,5 +1,9 @@
 #include "cli/recipe_render.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <tuple>
@@ -80,10 +84,49 @@ void read_image_size(const RecipeValue& v, RenderRecipe& r) {
   }
 }
 
+/// A number: at most so many. Text: "1..16".
+void read_samples(const RecipeValue& v, RenderRecipe& r) {
+  if (v.is_text()) {
+    set_samples(parse_samples(v.text(), v.location()), r.sampling);
+  } else {
+    set_samples({std::nullopt, static_cast<int>(v.integer(1, kMostSamples))}, r.sampling);
+  }
+}
+
+void read_crop(const RecipeValue& v, RenderRecipe& r) {
+  if (v.is_text()) {
+    r.crop = parse_crop(v.text(), v.location());
+  } else {
+    const auto edges = v.elements(4);
+    const auto edge = [&](int i) { return static_cast<int>(edges[i].integer(0, 65536)); };
+    r.crop = PixelRect{edge(0), edge(1), edge(2), edge(3)};
+  }
+  if (r.crop->empty()) v.refuse("x0,y0,x1,y1 with x0 < x1 and y0 < y1");
+}
+
+/// A factor, or text in stops: "+1.5 stops" is 2^1.5.
+void read_exposure(const RecipeValue& v, RenderRecipe& r) {
+  if (!v.is_text()) {
+    r.exposure = v.positive();
+    return;
+  }
+  const std::string text = v.text();
+  const auto unit = text.find("stop");
+  if (unit == std::string::npos || (text.substr(unit) != "stop" && text.substr(unit) != "stops"))
+    v.refuse("a factor such as 1.5, or stops such as \"+0.5 stops\"");
+  const double stops = parse_number(std::string_view(text).substr(0, unit), v.location());
+  if (!(std::abs(stops) <= 64)) v.refuse("stops from -64 to 64");
+  r.exposure = std::exp2(stops);
+}
+
 const KeyRule<RenderRecipe> kRenderKeys[] = {
     {"size", read_image_size},
-    {"samples", [](const RecipeValue& v, RenderRecipe& r) { r.samples = static_cast<int>(v.integer(1, 65536)); }},
-    {"exposure", [](const RecipeValue& v, RenderRecipe& r) { r.exposure = v.positive(); }},
+    {"samples", read_samples},
+    {"noise", [](const RecipeValue& v, RenderRecipe& r) { r.sampling.noise = v.number(0, 1); }},
+    {"filter", [](const RecipeValue& v, RenderRecipe& r) { r.sampling.filter_radius = v.number(0, kLargestFilter); }},
+    {"crop", read_crop},
+    {"smooth", [](const RecipeValue& v, RenderRecipe& r) { r.smooth = v.flag(); }},
+    {"exposure", read_exposure},
     {"seed",
      [](const RecipeValue& v, RenderRecipe& r) { r.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
     {"background", [](const RecipeValue& v, RenderRecipe& r) { r.light.sky_zenith = r.light.sky_horizon = v.color(); }},
@@ -92,6 +135,19 @@ const KeyRule<RenderRecipe> kRenderKeys[] = {
 };
 
 }  // namespace
+
+void set_samples(const std::pair<std::optional<int>, int>& least_and_most, Sampling& sampling) {
+  sampling.max = least_and_most.second;
+  sampling.min = std::min(least_and_most.first.value_or(sampling.min), sampling.max);
+}
+
+void check_crop(const RenderOptions& options, const SourceLocation& at) {
+  if (!options.crop) return;
+  const PixelRect& c = *options.crop;
+  if (!c.empty() && PixelRect{0, 0, options.width, options.height}.contains(c)) return;
+  throw InputError(at, fmt::format("the crop {},{},{},{}", c.x0, c.y0, c.x1, c.y1),
+                   fmt::format("x0,y0,x1,y1 with x0 < x1 and y0 < y1 within the picture's {}x{}", options.width, options.height));
+}
 
 void read_render(const RecipeValue& table, RenderRecipe& render) { read_table(table, kRenderKeys, render); }
 

@@ -1,9 +1,12 @@
 #include "cli/units.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
+
+#include "raytrace/sampling.h"
 
 namespace cambium {
 namespace {
@@ -29,11 +32,11 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-std::optional<int> whole_side(std::string_view text) {
+/// The whole of `text` as a whole number in [lo, hi].
+std::optional<int> whole_number(std::string_view text, int lo, int hi) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < 1 || value > kLargestImageSide)
-    return std::nullopt;
+  if (error != std::errc{} || end != text.data() + text.size() || value < lo || value > hi) return std::nullopt;
   return value;
 }
 
@@ -81,11 +84,36 @@ std::pair<int, int> parse_image_size(std::string_view text, const SourceLocation
   const std::string_view size = trimmed(text);
   const auto cross = size.find_first_of("xX");
   if (cross != std::string_view::npos) {
-    const auto width = whole_side(size.substr(0, cross));
-    const auto height = whole_side(size.substr(cross + 1));
+    const auto width = whole_number(size.substr(0, cross), 1, kLargestImageSide);
+    const auto height = whole_number(size.substr(cross + 1), 1, kLargestImageSide);
     if (width && height) return {*width, *height};
   }
   throw InputError(at, quoted(text), "an image size such as 768x1024, each side 1 to 65536");
+}
+
+std::pair<std::optional<int>, int> parse_samples(std::string_view text, const SourceLocation& at) {
+  const std::string_view counts = trimmed(text);
+  const auto dots = counts.find("..");
+  const bool both = dots != std::string_view::npos;
+  const auto most = whole_number(both ? counts.substr(dots + 2) : counts, 1, kMostSamples);
+  const auto least = whole_number(both ? counts.substr(0, dots) : "1", 1, most.value_or(1));
+  if (!most || !least)
+    throw InputError(at, quoted(text), "samples such as 16 or 1..16, each 1 to " + std::to_string(kMostSamples));
+  return {both ? least : std::nullopt, *most};
+}
+
+PixelRect parse_crop(std::string_view text, const SourceLocation& at) {
+  std::array<int, 4> edges{};
+  std::string_view rest = text;
+  for (int i = 0; i < 4; ++i) {
+    const auto comma = rest.find(',');
+    const auto edge = whole_number(trimmed(rest.substr(0, comma)), 0, kLargestImageSide);
+    if (!edge || (comma == std::string_view::npos) != (i == 3))
+      throw InputError(at, quoted(text), "a crop x0,y0,x1,y1 in pixels, such as 0,0,256,256");
+    edges[i] = *edge;
+    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+  }
+  return {edges[0], edges[1], edges[2], edges[3]};
 }
 
 }  // namespace cambium

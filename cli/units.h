@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "blobtree/input_error.h"
+#include "raytrace/pixel_rect.h"
 
 namespace cambium {
 
@@ -22,5 +24,11 @@ std::size_t parse_count(std::string_view text, const SourceLocation& at);
 
 /// "768x1024": width and height in pixels, each 1 to 65536. Errors: InputError at `at`.
 std::pair<int, int> parse_image_size(std::string_view text, const SourceLocation& at);
+
+/// "1..16": fewest and most; "16": most alone. Each 1 to 65535. Errors: InputError at `at`.
+std::pair<std::optional<int>, int> parse_samples(std::string_view text, const SourceLocation& at);
+
+/// "x0,y0,x1,y1": four whole numbers. Errors: InputError at `at`.
+PixelRect parse_crop(std::string_view text, const SourceLocation& at);
 
 }  // namespace cambium

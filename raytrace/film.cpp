@@ -1,101 +1,79 @@
 #include "raytrace/film.h"
 
 #include "blobtree/input_error.h"
+#include "raytrace/cryptomatte.h"
 #include "raytrace/image_file.h"
 #include "raytrace/tone.h"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace cambium {
 namespace {
 
-struct Aov {
-  const std::vector<float>* data = nullptr;
-  std::vector<std::string> channels;
+Vec3 straight(const float* rgba) {
+  return rgba[3] > 0 ? Vec3(rgba[0], rgba[1], rgba[2]) / double(rgba[3]) : Vec3(0.0);
+}
+
+Pixels displayed(const Film& film) {
+  Pixels pixels{film.width, film.height, film.transparent ? 4 : 3, {}};
+  pixels.data.reserve(film.pixels() * pixels.channels);
+  for (std::size_t i = 0; i < film.pixels(); ++i) {
+    const float* rgba = &film.color[4 * i];
+    const Vec3 shown = display_from_linear(film.transparent ? straight(rgba) : Vec3(rgba[0], rgba[1], rgba[2]));
+    for (int c = 0; c < 3; ++c) pixels.data.push_back(static_cast<float>(shown[c]));
+    if (film.transparent) pixels.data.push_back(rgba[3]);
+  }
+  return pixels;
+}
+
+struct Layer {
+  const std::vector<float>& values;
+  std::size_t channels;
 };
 
-Aov aov_of(const Film& film, const std::string& name) {
-  Aov aov;
-  if (name == "depth") aov = {&film.depth, {"depth.Z"}};
-  else if (name == "normal") aov = {&film.normal, {"normal.X", "normal.Y", "normal.Z"}};
-  else if (name == "albedo") aov = {&film.albedo, {"albedo.R", "albedo.G", "albedo.B"}};
-  else if (name == "branch") aov = {&film.branch, {"branch.id"}};
-  else throw InputError({}, "'" + name + "'", "depth, normal, albedo or branch");
-  if (aov.data->size() != std::size_t(film.width) * film.height * aov.channels.size()) {
-    throw InputError({}, "a film without '" + name + "'", "a film rendered with it");
+Pixels interleaved(const Film& film, const std::vector<Layer>& layers) {
+  Pixels pixels{film.width, film.height, 0, {}};
+  for (const Layer& layer : layers) pixels.channels += static_cast<int>(layer.channels);
+  pixels.data.reserve(film.pixels() * pixels.channels);
+  for (std::size_t i = 0; i < film.pixels(); ++i) {
+    for (const Layer& layer : layers) {
+      const float* first = layer.values.data() + layer.channels * i;
+      pixels.data.insert(pixels.data.end(), first, first + layer.channels);
+    }
   }
-  return aov;
+  return pixels;
 }
 
-/// A colour that tells neighbouring branch ids apart.
-Vec3 id_color(float id) {
-  const double hue = 6.283185307 * std::fmod(0.381966 * id, 1.0);
-  return 0.55 + 0.4 * Vec3(std::cos(hue), std::cos(hue - 2.0944), std::cos(hue + 2.0944));
-}
-
-void append(Pixels& pixels, const Vec3& color) {
-  for (int c = 0; c < 3; ++c) pixels.data.push_back(static_cast<float>(color[c]));
+void write_exr(const Film& film, const std::filesystem::path& path) {
+  std::vector<Layer> layers{{film.color, 4}};
+  ImageLayout layout{.channel_names = {"R", "G", "B", "A"}, .sample_types = std::vector<SampleType>(4, SampleType::kHalf)};
+  for (const auto& [aov, values] : film.aovs) {
+    const AovInfo& info = info_of(aov);
+    layers.push_back({values, info.channels.size()});
+    layout.channel_names.insert(layout.channel_names.end(), info.channels.begin(), info.channels.end());
+    layout.sample_types.insert(layout.sample_types.end(), info.channels.size(), info.full_float ? SampleType::kFloat : SampleType::kHalf);
+    if (aov == Aov::kCryptomatte) layout.metadata = matte_metadata(kMatteLayer, film.branches);
+  }
+  layout.window = {film.x, film.y, film.x + film.width, film.y + film.height};
+  layout.full_width = film.full_width;
+  layout.full_height = film.full_height;
+  write_pixels(interleaved(film, layers), layout, path, ".exr");
 }
 
 }  // namespace
 
-void write_image(const Film& film, const std::filesystem::path& path, const std::string& format, const std::set<std::string>& aovs) {
-  if (format != ".png" && format != ".exr") throw InputError({path.string(), 0, 0}, "'" + format + "'", ".png or .exr");
-  const std::size_t count = std::size_t(film.width) * film.height;
-  for (const std::string& name : aovs) aov_of(film, name);
-  Pixels pixels{film.width, film.height, 3, {}, false};
-  if (format == ".png") {
-    pixels.data.reserve(3 * count);
-    for (std::size_t i = 0; i < count; ++i) {
-      append(pixels, display_from_linear({film.color[4 * i], film.color[4 * i + 1], film.color[4 * i + 2]}));
-    }
-    write_pixels(pixels, {"R", "G", "B"}, path, format);
-    return;
-  }
-  std::vector<std::string> names{"R", "G", "B", "A"};
-  std::vector<Aov> extra;
-  for (const std::string& name : aovs) {
-    extra.push_back(aov_of(film, name));
-    names.insert(names.end(), extra.back().channels.begin(), extra.back().channels.end());
-  }
-  pixels.channels = static_cast<int>(names.size());
-  pixels.data.reserve(names.size() * count);
-  for (std::size_t i = 0; i < count; ++i) {
-    pixels.data.insert(pixels.data.end(), film.color.begin() + 4 * i, film.color.begin() + 4 * i + 4);
-    for (const Aov& aov : extra) {
-      const std::size_t n = aov.channels.size();
-      pixels.data.insert(pixels.data.end(), aov.data->begin() + n * i, aov.data->begin() + n * i + n);
-    }
-  }
-  write_pixels(pixels, names, path, format);
+const std::vector<float>& Film::aov(Aov aov) const {
+  const auto found = aovs.find(aov);
+  if (found != aovs.end() && found->second.size() == pixels() * info_of(aov).channels.size()) return found->second;
+  throw InputError({}, "a film without '" + std::string(info_of(aov).name) + "'", "a film rendered with it");
 }
 
-void write_aov(const Film& film, const std::filesystem::path& path, const std::string& name) {
-  const Aov aov = aov_of(film, name);
-  const std::size_t count = std::size_t(film.width) * film.height;
-  float near = std::numeric_limits<float>::infinity(), far = 0;
-  if (name == "depth") {
-    for (float d : *aov.data) {
-      if (std::isfinite(d)) near = std::min(near, d), far = std::max(far, d);
-    }
-  }
-  Pixels pixels{film.width, film.height, 3, {}, false};
-  pixels.data.reserve(3 * count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::vector<float>& v = *aov.data;
-    if (name == "depth") {
-      append(pixels, std::isfinite(v[i]) ? Vec3(1 - 0.9 * (v[i] - near) / std::max(far - near, 1e-9f)) : Vec3(0));
-    } else if (name == "branch") {
-      append(pixels, v[i] < 0 ? Vec3(0) : id_color(v[i]));
-    } else {
-      const Vec3 value(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
-      append(pixels, name == "normal" ? 0.5 + 0.5 * value
-                                      : Vec3(srgb_from_linear(value.x), srgb_from_linear(value.y), srgb_from_linear(value.z)));
-    }
-  }
-  write_pixels(pixels, {"R", "G", "B"}, path, ".png");
+void write_image(const Film& film, const std::filesystem::path& path, const ImageFormat& format) {
+  if (format.extension == ".exr") return write_exr(film, path);
+  if (format.extension != ".png") throw InputError({path.string(), 0, 0}, "'" + format.extension + "'", ".png or .exr");
+  const Pixels pixels = displayed(film);
+  ImageLayout layout{.channel_names = {"R", "G", "B", "A"},
+                     .sample_types = std::vector<SampleType>(pixels.channels, format.bits == 16 ? SampleType::kUint16 : SampleType::kUint8)};
+  layout.channel_names.resize(pixels.channels);
+  write_pixels(pixels, layout, path, ".png");
 }
 
 }  // namespace cambium

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <system_error>
 
@@ -16,6 +17,54 @@ namespace {
 std::string first_line(std::string text) {
   text.erase(std::min(text.find('\n'), text.size()));
   return text.empty() ? "an unreadable file" : text;
+}
+
+OIIO::TypeDesc type_of(SampleType type) {
+  switch (type) {
+    case SampleType::kUint8:
+      return OIIO::TypeDesc::UINT8;
+    case SampleType::kUint16:
+      return OIIO::TypeDesc::UINT16;
+    case SampleType::kHalf:
+      return OIIO::TypeDesc::HALF;
+    case SampleType::kFloat:
+      return OIIO::TypeDesc::FLOAT;
+  }
+  return OIIO::TypeDesc::FLOAT;
+}
+
+OIIO::ImageSpec png_spec(const Pixels& pixels, const ImageLayout& layout) {
+  OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, type_of(layout.sample_types.front()));
+  spec.channelnames = layout.channel_names;
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);  // the values are straight already
+  return spec;
+}
+
+OIIO::ImageSpec exr_spec(const Pixels& pixels, const ImageLayout& layout) {
+  OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = layout.channel_names;
+  for (const SampleType type : layout.sample_types) spec.channelformats.push_back(type_of(type));
+  if (!layout.window.empty()) {
+    spec.x = layout.window.x0;
+    spec.y = layout.window.y0;
+    spec.full_width = layout.full_width;
+    spec.full_height = layout.full_height;
+  }
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the clock's: the same picture is the same file
+  spec.attribute("oiio:ColorSpace", "Linear");
+  for (const auto& [name, text] : layout.metadata) spec.attribute(name, text);
+  return spec;
+}
+
+template <typename Integer>
+std::vector<Integer> encoded(const Pixels& pixels) {
+  constexpr float kMost = std::numeric_limits<Integer>::max();
+  std::vector<Integer> values(pixels.data.size());
+  std::transform(pixels.data.begin(), pixels.data.end(), values.begin(),
+                 [](float v) { return static_cast<Integer>(std::lround(kMost * (v > 0 ? std::min(v, 1.0f) : 0.0f))); });
+  return values;
 }
 
 }  // namespace
@@ -44,41 +93,23 @@ Pixels read_pixels(const std::filesystem::path& path) {
   return pixels;
 }
 
-void write_pixels(const Pixels& pixels, const std::vector<std::string>& channel_names, const std::filesystem::path& path,
-                  const std::string& format) {
-  const auto discard = [&](const std::string& why) {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-    throw std::runtime_error("cannot write " + path.string() + ": " + why);
-  };
+void write_pixels(const Pixels& pixels, const ImageLayout& layout, const std::filesystem::path& path, const std::string& format) {
+  const bool png = format == ".png";
   // By format name, not by file name: the caller writes beside under a temporary name and renames.
-  const auto output = OIIO::ImageOutput::create(format == ".png" ? "png" : "openexr");
+  const auto output = OIIO::ImageOutput::create(png ? "png" : "openexr");
   if (!output) throw std::runtime_error("cannot write " + path.string() + ": OpenImageIO has no " + format + " writer");
-  const bool bytes = format == ".png";
-  OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, bytes ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
-  spec.channelnames = channel_names;
-  if (bytes) {
-    spec.attribute("oiio:ColorSpace", "sRGB");
-  } else {
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "2000:01:01 00:00:00");  // else the clock's: the same picture is the same file
-    spec.attribute("oiio:ColorSpace", "Linear");
-  }
+  const OIIO::ImageSpec spec = png ? png_spec(pixels, layout) : exr_spec(pixels, layout);
   if (!output->open(path.string(), spec)) throw std::runtime_error("cannot write " + path.string() + ": " + first_line(output->geterror()));
-  bool written = false;
-  if (bytes) {
-    std::vector<std::uint8_t> encoded(pixels.data.size());
-    std::transform(pixels.data.begin(), pixels.data.end(), encoded.begin(), [](float v) {
-      return static_cast<std::uint8_t>(std::lround(255 * (v > 0 ? std::min(v, 1.0f) : 0.0f)));
-    });
-    written = output->write_image(OIIO::TypeDesc::UINT8, encoded.data());
-  } else {
-    written = output->write_image(OIIO::TypeDesc::FLOAT, pixels.data.data());
-  }
-  const std::string trouble = written ? "" : first_line(output->geterror());
-  const bool closed = output->close();
-  if (!written) discard(trouble);
-  if (!closed) discard(first_line(output->geterror()));
+  const bool written = png && spec.format == OIIO::TypeDesc::UINT8
+                           ? output->write_image(OIIO::TypeDesc::UINT8, encoded<std::uint8_t>(pixels).data())
+                       : png ? output->write_image(OIIO::TypeDesc::UINT16, encoded<std::uint16_t>(pixels).data())
+                             : output->write_image(OIIO::TypeDesc::FLOAT, pixels.data.data());
+  std::string trouble = written ? "" : first_line(output->geterror());
+  if (!output->close() && trouble.empty()) trouble = first_line(output->geterror());
+  if (trouble.empty()) return;
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  throw std::runtime_error("cannot write " + path.string() + ": " + trouble);
 }
 
 }  // namespace cambium

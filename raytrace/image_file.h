@@ -1,8 +1,11 @@
 // Image files in and out; OpenImageIO stays behind this.
 #pragma once
 
+#include "raytrace/pixel_rect.h"
+
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cambium {
@@ -17,9 +20,19 @@ struct Pixels {
 /// Errors: InputError naming the file if it is missing, not an image, empty or larger than 2^28 values.
 Pixels read_pixels(const std::filesystem::path& path);
 
-/// Writes to exactly `path`, whose name may have any ending. format: ".png" (data in [0, 1], 8 bit, rounded) or ".exr" (float).
-/// channel_names: one per channel. Errors: std::runtime_error naming the path; then no file is left.
-void write_pixels(const Pixels& pixels, const std::vector<std::string>& channel_names, const std::filesystem::path& path,
-                  const std::string& format);
+enum class SampleType { kUint8, kUint16, kHalf, kFloat };
+
+/// How pixels lie in a file.
+struct ImageLayout {
+  std::vector<std::string> channel_names;   ///< one per channel
+  std::vector<SampleType> sample_types;     ///< likewise; all alike in a PNG: kUint8 or kUint16
+  PixelRect window{};                       ///< of an EXR: where the pixels lie in the whole picture; empty: they are the whole
+  int full_width = 0, full_height = 0;      ///< of the whole picture
+  std::vector<std::pair<std::string, std::string>> metadata{};  ///< of an EXR: names and texts
+};
+
+/// Writes to exactly `path`, whose name may have any ending. format: ".png" (data in [0, 1], rounded; sRGB) or ".exr" (linear).
+/// Errors: std::runtime_error naming the path; then no file is left.
+void write_pixels(const Pixels& pixels, const ImageLayout& layout, const std::filesystem::path& path, const std::string& format);
 
 }  // namespace cambium

@@ -2,26 +2,28 @@
 #pragma once
 
 #include "blobtree/geometry.h"
-#include "blobtree/run_options.h"
 
 #include <vector>
 
 namespace cambium {
 
-/// One pixel's means over its samples; vec3 in float, the film is large.
-struct PixelMean {
-  glm::vec3 direct{0.0f};
-  glm::vec3 albedo{0.0f};          ///< over all samples, zero where they missed
-  glm::vec3 lit{0.0f};             ///< albedo * ambient
-  glm::vec3 normal{0.0f};
-  float depth = 0;                 ///< mean over the samples that hit; infinity if none did
-  float coverage = 0;              ///< share of samples that hit
+/// One pixel's ambient light and the surface that it falls on; vec3 in float, the film is large.
+struct AmbientPixel {
+  glm::vec3 albedo{0.0f};          ///< mean over all samples, zero where they missed
+  glm::vec3 lit{0.0f};             ///< the same of albedo * ambient
+  glm::vec3 normal{0.0f};          ///< unit, mean over the samples that hit
+  glm::vec3 from_eye{0.0f};        ///< mean place of the hits, metres
+  float light = 0, light_squared = 0;  ///< sums over the hits of the ambient light's luminance and its square
+  float hits = 0;                  ///< how many samples hit; 0: there is no surface here
 };
 
-/// For each pixel the ambient part of its light, `lit`, with the sky rays' noise averaged over neighbours that lie on the same
-/// surface (plane distance and normal agree): three passes of an edge-avoiding a-trous filter (Dammertz et al. 2010).
-/// pixel_angle: radians per pixel. Deterministic. Empty if cancelled.
-std::vector<glm::vec3> smooth_ambient(const std::vector<PixelMean>& pixels, int width, int height, double pixel_angle,
-                                      const RunOptions& run);
+/// The farthest pixel that one pixel's result depends on, in each direction.
+constexpr int kSmoothingReach = 2 + 2 * (1 + 2 + 4 + 8);
+
+/// For each pixel the ambient part of its light, `lit`, with the noise of its few rays averaged over neighbours that lie on the
+/// same surface: passes of an edge-avoiding a-trous filter (Dammertz et al. 2010). Neighbours count by how many samples they have,
+/// and not where the light differs by more than its noise explains (Schied et al. 2017), so that the shade in a crotch stays.
+/// pixel_angle: radians per pixel. Deterministic.
+std::vector<glm::vec3> smooth_ambient(const std::vector<AmbientPixel>& pixels, int width, int height, double pixel_angle);
 
 }  // namespace cambium

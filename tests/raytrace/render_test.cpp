@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -18,29 +19,55 @@ RenderOptions small() {
   RenderOptions options;
   options.width = 48;
   options.height = 64;
-  options.samples = 8;
+  options.sampling.max = 8;
   return options;
+}
+
+std::set<Aov> every_aov() {
+  std::set<Aov> aovs;
+  for (const AovInfo& info : all_aovs()) aovs.insert(info.aov);
+  return aovs;
+}
+
+/// The part of a film's values (color or an AOV) that a crop shows.
+std::vector<float> cut(const std::vector<float>& values, const Film& whole, const PixelRect& crop) {
+  const std::size_t channels = values.size() / whole.pixels();
+  std::vector<float> part;
+  for (int y = crop.y0; y < crop.y1; ++y) {
+    const auto row = values.begin() + static_cast<std::ptrdiff_t>((std::size_t(y) * whole.width + crop.x0) * channels);
+    part.insert(part.end(), row, row + static_cast<std::ptrdiff_t>(crop.width() * channels));
+  }
+  return part;
 }
 
 TEST(Render, IsTheSameForAnyThreadCount) {
   const Field field = scenes::forked();
-  RunOptions one, many;
+  RenderOptions options = small();
+  options.aovs = every_aov();
+  RunOptions one;
   one.threads = 1;
-  many.threads = 4;
-  const auto a = render(field, small(), one), b = render(field, small(), many);
-  ASSERT_TRUE(a && b);
-  EXPECT_EQ(a->film.color, b->film.color);
-  EXPECT_EQ(a->film.normal, b->film.normal);
-  EXPECT_EQ(a->film.branch, b->film.branch);
-  EXPECT_EQ(a->report.rays, b->report.rays);
+  const auto a = render(field, options, one);
+  ASSERT_TRUE(a);
+  for (const int threads : {2, 4}) {
+    RunOptions many;
+    many.threads = threads;
+    const auto b = render(field, options, many);
+    ASSERT_TRUE(b);
+    EXPECT_EQ(a->film.color, b->film.color);
+    EXPECT_EQ(a->film.aovs, b->film.aovs);
+    EXPECT_EQ(a->report.rays, b->report.rays);
+  }
 }
 
 TEST(Render, TheTreeFillsThePictureAndAovsNameItsBranches) {
   RenderOptions options = small();
   options.light.ground = false;
+  options.aovs = every_aov();
   const auto out = render(scenes::forked(), options, {});
   ASSERT_TRUE(out);
   const Film& film = out->film;
+  const std::vector<float>&branch = film.aov(Aov::kBranch), &depth = film.aov(Aov::kDepth), &albedo = film.aov(Aov::kAlbedo),
+        &normal = film.aov(Aov::kNormal);
   ASSERT_EQ(film.color.size(), 4u * 48 * 64);
   int first = 64, last = -1;
   bool zero = false, one = false;
@@ -48,14 +75,14 @@ TEST(Render, TheTreeFillsThePictureAndAovsNameItsBranches) {
     for (int x = 0; x < 48; ++x) {
       const std::size_t i = std::size_t(y) * 48 + x;
       for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(film.color[4 * i + c]) && film.color[4 * i + c] >= 0);
-      if (film.branch[i] < 0) continue;
+      if (branch[i] < 0) continue;
       first = std::min(first, y);
       last = std::max(last, y);
-      zero |= film.branch[i] == 0;
-      one |= film.branch[i] == 1;
-      EXPECT_TRUE(std::isfinite(film.depth[i]));
-      EXPECT_GT(film.albedo[3 * i], 0);
-      EXPECT_NEAR(std::hypot(film.normal[3 * i], film.normal[3 * i + 1], film.normal[3 * i + 2]), 1, 1e-4);
+      zero |= branch[i] == 0;
+      one |= branch[i] == 1;
+      EXPECT_TRUE(std::isfinite(depth[i]));
+      EXPECT_GT(albedo[3 * i], 0);
+      EXPECT_NEAR(std::hypot(normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]), 1, 1e-4);
     }
   }
   EXPECT_LE(first, 6);
@@ -137,6 +164,73 @@ TEST(Render, StopsWhenCancelledAndReportsProgressUpwards) {
   EXPECT_FALSE(render(field, small(), run));
 }
 
+TEST(Render, ACropIsBitIdenticalToThatPartOfTheWhole) {
+  const Field field = scenes::forked();
+  const auto renderer = Renderer::make(field, {});
+  ASSERT_TRUE(renderer);
+  RenderOptions options;
+  options.width = 120;
+  options.height = 150;
+  options.aovs = every_aov();
+  for (const char* what : {"smoothed", "not smoothed"}) {
+    options.smooth = what == std::string("smoothed");
+    const auto whole = renderer->render(options, {});
+    ASSERT_TRUE(whole);
+    std::mt19937 random(5);
+    const auto below = [&](int end) { return std::uniform_int_distribution<int>(0, end - 1)(random); };
+    for (int trial = 0; trial < 8; ++trial) {
+      const int x = below(110), y = below(140);
+      const PixelRect crop{x, y, x + 1 + below(120 - x), y + 1 + below(150 - y)};
+      SCOPED_TRACE(testing::Message() << what << ' ' << crop.x0 << ',' << crop.y0 << ',' << crop.x1 << ',' << crop.y1);
+      RenderOptions part = options;
+      part.crop = crop;
+      const auto made = renderer->render(part, {});
+      ASSERT_TRUE(made);
+      EXPECT_EQ(made->film.color, cut(whole->film.color, whole->film, crop));
+      for (const auto& [aov, values] : made->film.aovs) {
+        EXPECT_EQ(values, cut(whole->film.aov(aov), whole->film, crop)) << info_of(aov).name;
+      }
+    }
+  }
+}
+
+TEST(Render, CancelledAfterAPassItIsThePictureOfThatManySamples) {
+  const auto field = scenes::forked();
+  const auto renderer = Renderer::make(field, {});
+  ASSERT_TRUE(renderer);
+  RenderOptions options = small();
+  options.sampling.max = 16;
+  for (const int stop : {1, 2, 4, 8}) {
+    std::atomic<bool> cancel{false};
+    RunOptions run;
+    run.cancel = &cancel;
+    const auto cut_short = renderer->render(options, run, [&](int samples) { cancel = samples == stop; });
+    ASSERT_TRUE(cut_short);
+    EXPECT_TRUE(cut_short->interrupted);
+    EXPECT_EQ(cut_short->report.samples, stop);
+    RenderOptions fewer = options;
+    fewer.sampling.max = stop;
+    const auto asked_for = renderer->render(fewer, {});
+    ASSERT_TRUE(asked_for);
+    EXPECT_FALSE(asked_for->interrupted);
+    EXPECT_EQ(cut_short->film.color, asked_for->film.color) << stop;
+  }
+}
+
+TEST(Render, TheEmptySkyTakesTheFewestSamplesAndTheOutlineTheMost) {
+  RenderOptions options = small();
+  options.sampling.max = 16;
+  options.light.ground = false;
+  options.aovs = {Aov::kSamples, Aov::kDepth};
+  const auto out = render(scenes::sphere({0, 0, 0}, 1), options, {});
+  ASSERT_TRUE(out);
+  const std::vector<float>& samples = out->film.aov(Aov::kSamples);
+  EXPECT_EQ(samples.front(), 1);
+  EXPECT_EQ(samples.back(), 1);
+  EXPECT_EQ(*std::max_element(samples.begin(), samples.end()), 16);
+  EXPECT_LT(out->report.samples_per_pixel, 8);
+}
+
 TEST(Render, RefusesImpossibleSizes) {
   const Field field = scenes::trunk();
   RenderOptions options = small();
@@ -146,8 +240,19 @@ TEST(Render, RefusesImpossibleSizes) {
   options.height = 65537;
   EXPECT_THROW(render(field, options, {}), InputError);
   options = small();
-  options.samples = 0;
+  options.sampling.min = 0;
   EXPECT_THROW(render(field, options, {}), InputError);
+  options = small();
+  options.sampling.min = 9;
+  EXPECT_THROW(render(field, options, {}), InputError);
+  options = small();
+  options.sampling.max = 65536;
+  EXPECT_THROW(render(field, options, {}), InputError);
+  for (const PixelRect crop : {PixelRect{0, 0, 49, 64}, PixelRect{-1, 0, 8, 8}, PixelRect{8, 8, 8, 9}, PixelRect{9, 8, 8, 9}}) {
+    options = small();
+    options.crop = crop;
+    EXPECT_THROW(render(field, options, {}), InputError);
+  }
 }
 
 }  // namespace
