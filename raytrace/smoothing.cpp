@@ -15,6 +15,9 @@ constexpr float kKernel[5] = {1 / 16.0f, 1 / 4.0f, 3 / 8.0f, 1 / 4.0f, 1 / 16.0f
 constexpr int kStrides[] = {1, 2, 4, 8};
 constexpr float kSigmas = 3;              // of noise, beyond which a difference is real
 constexpr float kLeastNoise = 0.01f;      // of the light: what differs by less is smoothed whatever its noise seems to be
+// After the first pass neighbours share what they are means of. On an even wall the passes' kernels together are as wide as
+// 1, 5, 21 and 85 pixels of variance: each gains 4 to 5 times the samples, not the 13 of a pass over independent ones.
+constexpr float kIndependent = 0.33f;
 
 /// A pixel's light between passes.
 struct Estimate {
@@ -68,7 +71,7 @@ class AmbientImage {
       for_each_neighbour(here, x, y, stride, [&](std::size_t there, float kernel, float alike) {
         const Estimate& b = from[there];
         const float difference = brightness(b.light) - level;
-        const float noise = variance[here] * (1 / a.samples + 1 / b.samples) + least * least;
+        const float noise = variance[here] * (1 / a.samples + 1 / b.samples) + least * least + 1e-12f;
         const float agree = 1 - difference * difference / (kSigmas * kSigmas * noise);
         if (agree <= 0) return;
         const float w = kernel * alike * agree * b.samples;
@@ -76,7 +79,8 @@ class AmbientImage {
         weight += w;
         squares += w * w / b.samples;
       });
-      to[here] = {sum / weight, weight * weight / squares};
+      const float independent = stride == kStrides[0] ? 1 : kIndependent;
+      to[here] = {sum / weight, std::max(a.samples, independent * weight * weight / squares)};
     });
     return to;
   }
