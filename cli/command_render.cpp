@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "cli/close_up.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -123,14 +124,17 @@ Outcome make_picture(Job& job, const Renderer& renderer, const RenderOptions& op
 
 Outcome run_render(Job& job) {
   const ImageFormat format{require_extension(job.line.output, {".png", ".exr"}), job.line.bits};
-  const RenderOptions options = render_options(job);
+  RenderOptions options = render_options(job);
   PictureFiles files(job.line.output, format, options.aovs);
-  const auto field = build_field(job);
-  if (!field) return Outcome::kInterrupted;
-  job.figures.set("primitives", field->atom_count());
+  const auto built = build_tree(job);
+  if (!built || job.run.cancelled()) return Outcome::kInterrupted;
+  const Field field = compile_field(job, built->tree);
+  job.figures.set("primitives", field.atom_count());
+  aim_at_branches(job.recipe.render, field, built->branches);
+  options.camera = job.recipe.render.camera;
   const auto renderer = [&] {
     const StageTimer timer(job.figures, "render_cover");
-    return Renderer::make(*field, job.run);
+    return Renderer::make(field, job.run);
   }();
   if (!renderer) return Outcome::kInterrupted;
   const Outcome outcome = make_picture(job, *renderer, options, files);

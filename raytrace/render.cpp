@@ -78,7 +78,8 @@ class CameraSamples : public SampleSource {
   CameraSample sample(int x, int y, std::uint32_t index) const override {
     const PixelSampler sampler(seed_, x, y);
     const auto [dx, dy] = filter_.offset(sampler.pair(index, Use::kPixel));
-    return path_tracer_.sample(evaluators_.local(), view_.ray(x + 0.5 + dx, y + 0.5 + dy), sampler, index);
+    const Ray ray = view_.ray(x + 0.5 + dx, y + 0.5 + dy, sampler.pair(index, Use::kLens));
+    return path_tracer_.sample(evaluators_.local(), ray, sampler, index);
   }
 
  private:

@@ -9,7 +9,7 @@
 namespace cambium {
 
 /// What a pair of numbers is for; each use has its own scramble.
-enum class Use : std::uint32_t { kPixel, kSun, kSky };
+enum class Use : std::uint32_t { kPixel, kSun, kSky, kLens };
 
 class PixelSampler {
  public:

@@ -6,24 +6,31 @@
 namespace cambium {
 namespace {
 
+/// How far off, as a tangent, a point at that depth may be seen from the lens's rim (the circle of confusion).
+double blur(const View& view, double depth) { return view.lens_radius * std::abs(1 / view.focus_distance - 1 / depth); }
+
+/// The pixel at `place`, from -1 to 1 over `size` pixels, and some pixels further; at most one off the picture.
+int pixel_at(double place, int size, double further) {
+  return static_cast<int>(std::clamp(std::floor(0.5 * size * (1 + place) + further), -1.0, double(size)));
+}
+
 /// The pixels that a box projects into; everything if it reaches behind the eye.
 PixelRect projection(const Box& box, const View& view, double reach) {
-  const double width = view.width, height = view.height;
-  double left = width, right = 0, top = height, bottom = 0;
+  double left = kInfinity, right = -kInfinity, top = kInfinity, bottom = -kInfinity;  // tangents
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p{corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z};
     const Vec3 from_eye = p - view.eye;
     const double depth = glm::dot(from_eye, view.forward);
     if (!(depth > 0)) return {0, 0, view.width, view.height};
-    const double x = 0.5 * width * (1 + glm::dot(from_eye, view.right) / (depth * view.tan_x));
-    const double y = 0.5 * height * (1 - glm::dot(from_eye, view.up) / (depth * view.tan_y));
-    left = std::min(left, x), right = std::max(right, x);
-    top = std::min(top, y), bottom = std::max(bottom, y);
+    const double x = glm::dot(from_eye, view.right) / depth, y = -glm::dot(from_eye, view.up) / depth, around = blur(view, depth);
+    left = std::min(left, x - around), right = std::max(right, x + around);
+    top = std::min(top, y - around), bottom = std::max(bottom, y + around);
   }
   // A pixel's middle lies half a pixel from its corner.
-  const auto pixel = [](double at, double size) { return static_cast<int>(std::clamp(std::floor(at), -1.0, size)); };
-  return {pixel(left - reach - 0.5, width), pixel(top - reach - 0.5, height), pixel(right + reach + 0.5, width) + 1,
-          pixel(bottom + reach + 0.5, height) + 1};
+  const auto first = [&](double tangent, double most, int size) { return pixel_at(tangent / most, size, -reach - 0.5); };
+  const auto last = [&](double tangent, double most, int size) { return pixel_at(tangent / most, size, reach + 0.5); };
+  return {first(left, view.tan_x, view.width), first(top, view.tan_y, view.height), last(right, view.tan_x, view.width) + 1,
+          last(bottom, view.tan_y, view.height) + 1};
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Which pixels may show the surface at all.
 #pragma once
 
-#include "raytrace/framing.h"
 #include "raytrace/pixel_rect.h"
+#include "raytrace/view.h"
 
 #include <cstdint>
 #include <span>
@@ -24,8 +24,8 @@ class PixelMask {
   std::vector<std::uint8_t> flags_;
 };
 
-/// True wherever a ray through the pixel, or `reach` pixels beside it, can meet one of the boxes (and around them: each box
-/// counts as the rectangle it projects to). So a twig thinner than the rays' spacing is looked for where it can be, and the
+/// True wherever a ray through the pixel, or `reach` pixels beside it, and through any point of the lens can meet one of the boxes
+/// (and around them: each box counts as the rectangle it projects to). So a twig thinner than the rays' spacing is looked for where it can be, and the
 /// sky need not be searched. Cost: the rectangles' pixels.
 PixelMask silhouette(std::span<const Box> boxes, const View& view, const PixelRect& area, double reach);
 

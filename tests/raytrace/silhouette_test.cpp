@@ -1,6 +1,6 @@
 #include "raytrace/silhouette.h"
 
-#include "raytrace/render.h"
+#include "raytrace/framing.h"
 #include "tests/raytrace/scenes.h"
 
 #include <gtest/gtest.h>
@@ -47,6 +47,27 @@ TEST(Silhouette, HoldsEveryPixelFromWhichABoxCanBeMet) {
   }
   EXPECT_GT(inside, 20);
   EXPECT_LT(inside, 60 * 40 / 4);  // and not the sky
+}
+
+TEST(Silhouette, HoldsWhatTheWholeLensSees) {
+  View view = view_of({0.1, -5, 1}, {0, 0, 0.5});
+  view.lens_radius = 0.2;
+  view.focus_distance = 2;
+  const PixelRect whole{0, 0, 60, 40};
+  const std::vector<Box> boxes{{{0.4, 0.1, 0.9}, {0.5, 0.2, 1.0}}};
+  const PixelMask mask = silhouette(boxes, view, whole, 0);
+  int blurred = 0;
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      for (int i = 0; i < 400; ++i) {
+        const Ray ray = view.ray(x + 0.5, y + 0.5, {(i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20});
+        if (!meets(ray, boxes[0])) continue;
+        ++blurred;
+        ASSERT_TRUE(mask.test(x, y)) << x << ' ' << y;
+      }
+    }
+  }
+  EXPECT_GT(blurred, 300);
 }
 
 TEST(Silhouette, OfABoxAroundTheEyeIsEverything) {
