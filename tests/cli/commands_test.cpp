@@ -231,6 +231,16 @@ TEST_F(Commands, RenderWritesImagesAndAovs) {
   EXPECT_FALSE(folder_.has("a.branch.exr"));
 }
 
+TEST_F(Commands, RenderMakesAPartOfThePicture) {
+  const Json json = figures({"render", at("tiny.tree.toml"), "-o", at("a.png"), "--crop", "4,8,20,31", "--samples", "1..4", "--noise",
+                             "0.01", "--bits", "16", "--aov", "all"});
+  EXPECT_EQ(json["width"], 16);
+  EXPECT_EQ(json["height"], 23);
+  EXPECT_EQ(json["samples"], 4);
+  EXPECT_EQ(json["aovs"].size(), 11u);
+  EXPECT_TRUE(folder_.has("a.cryptomatte.png"));
+}
+
 TEST_F(Commands, InfoListsBranchesAndBounds) {
   const Json json = figures({"info", at("tiny.skel.json")});
   EXPECT_EQ(json["axes"], 2);

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "program.h"
+#include "raytrace/image_file.h"
 #include "temporary_folder.h"
 #include "tiny_inputs.h"
 
@@ -38,6 +40,28 @@ TEST_F(Interrupt, EndsALongRenderAndLeavesNothing) {
   for (const int pause : {0, 300})
     expect_clean_end({"render", input, "--size", "8000x8000", "--samples", "256", "--aov", "depth"}, "a.png",
                      milliseconds(pause));
+}
+
+TEST_F(Interrupt, KeepsTheLastFinishedPassOfARender) {
+  const std::string input = folder_.write("tiny.skel.json", kTinySkeleton);
+  const std::vector<std::string> before = folder_.names();
+  const std::vector<std::string> arguments = {"render", input, "--size", "24x32", "--samples", "1..65535", "--noise", "0", "-o"};
+  for (const char* name : {"a.png", "a.exr"}) {
+    std::vector<std::string> with_output = arguments;
+    with_output.push_back(folder_.path(name));
+    const auto working = [&] { return folder_.names().size() > before.size(); };
+    const Ran ran = run_program_and_signal(with_output, working, milliseconds(1500), SIGINT);
+    EXPECT_EQ(ran.status, 1) << ran.out << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find("holds the last finished pass: up to "), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find(" of 65535 samples a pixel"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("cambium: interrupted"), std::string::npos) << ran.err;
+    const Pixels kept = read_pixels(folder_.path(name));
+    EXPECT_EQ(kept.width, 24);
+    EXPECT_EQ(kept.height, 32);
+    std::filesystem::remove(folder_.path(name));
+    EXPECT_EQ(folder_.names(), before);
+  }
 }
 
 TEST_F(Interrupt, EndsALongMeshAndLeavesNothing) {

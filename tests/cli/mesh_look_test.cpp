@@ -12,7 +12,8 @@ void write_image(const std::string& path, const std::string& format, int width, 
   Pixels pixels{width, height, 3, {}, true};
   for (int i = 0; i < width * height; ++i)
     for (const float value : {0.8f, 0.4f, 0.1f}) pixels.data.push_back(value);
-  write_pixels(pixels, {"R", "G", "B"}, path, format);
+  const SampleType type = format == ".png" ? SampleType::kUint8 : SampleType::kFloat;
+  write_pixels(pixels, {.channel_names = {"R", "G", "B"}, .sample_types = std::vector<SampleType>(3, type)}, path, format);
 }
 
 constexpr const char* kTwoBarks = R"([skeleton]

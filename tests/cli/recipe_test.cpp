@@ -57,7 +57,12 @@ style = "smooth"
 texture = "bark.png"
 [render]
 size = "20x30"
-samples = 4
+samples = "2..4"
+noise = 0.01
+filter = 2
+crop = [1, 2, 11, 12]
+smooth = false
+exposure = "-1 stop"
 background = "#ffffff"
 [render.camera]
 azimuth = 180
@@ -104,6 +109,13 @@ TEST(Recipe, EveryPartIsRead) {
   EXPECT_EQ(recipe.bark[1].texture->filename(), "bark.png");
   EXPECT_EQ(recipe.render.width, 20);
   EXPECT_EQ(recipe.render.height, 30);
+  EXPECT_EQ(recipe.render.sampling.min, 2);
+  EXPECT_EQ(recipe.render.sampling.max, 4);
+  EXPECT_DOUBLE_EQ(recipe.render.sampling.noise, 0.01);
+  EXPECT_DOUBLE_EQ(recipe.render.sampling.filter_radius, 2);
+  EXPECT_EQ(recipe.render.crop, (PixelRect{1, 2, 11, 12}));
+  EXPECT_FALSE(recipe.render.smooth);
+  EXPECT_DOUBLE_EQ(recipe.render.exposure, 0.5);
   EXPECT_EQ(recipe.render.light.sky_zenith, Vec3(1.0));
   EXPECT_FALSE(recipe.render.light.ground);
   EXPECT_EQ(recipe.render.camera.frame->hi, Vec3(1.0));
@@ -171,6 +183,13 @@ TEST(Recipe, MalformedOnesAreRefusedAtTheirPlace) {
       {"[[bark.order]]\norder = 1", 2, 1, "unknown key 'bark.order.0.order'"},
       {"[render]\nsize = \"0x0\"", 2, 8, "'0x0'"},
       {"[render]\nsize = [0, 10]", 2, 9, "the number 0"},
+      {"[render]\nsamples = 0", 2, 11, "the number 0"},
+      {"[render]\nsamples = \"8..4\"", 2, 11, "'8..4'"},
+      {"[render]\nnoise = -1", 2, 9, "the number -1"},
+      {"[render]\nfilter = 9", 2, 10, "the number 9"},
+      {"[render]\ncrop = [0, 0, 8]", 2, 8, "an array of 3"},
+      {"[render]\ncrop = [8, 0, 8, 8]", 2, 8, "an array of 4"},
+      {"[render]\nexposure = \"2 steps\"", 2, 12, "'2 steps'"},
       {"[render.camera]\nfov = 0", 2, 7, "the number 0"},
       {"[render.camera]\nf_number = 0", 2, 12, "the number 0"},
       {"[render.camera]\nfocal_length = \"50mm\"\nfov = 30", 3, 7, "the number 30"},

@@ -58,5 +58,23 @@ TEST(Units, NumbersAreFiniteAndWhole) {
   for (const char* text : {"", "x", "nan", "-inf", "1 2"}) EXPECT_THROW(parse_number(text, kHere), InputError) << text;
 }
 
+TEST(Units, SamplesAreTheMostOrARange) {
+  EXPECT_EQ(parse_samples("16", kHere), (std::pair<std::optional<int>, int>{std::nullopt, 16}));
+  EXPECT_EQ(parse_samples(" 1..16 ", kHere), (std::pair<std::optional<int>, int>{1, 16}));
+  EXPECT_EQ(parse_samples("4..4", kHere), (std::pair<std::optional<int>, int>{4, 4}));
+  for (const char* text : {"", "0", "65536", "16..1", "1..", "..1", "1.5", "1 .. 2x"}) {
+    SCOPED_TRACE(text);
+    EXPECT_THROW(parse_samples(text, kHere), InputError);
+  }
+}
+
+TEST(Units, CropsAreFourWholeNumbers) {
+  EXPECT_EQ(parse_crop("0, 1,20,30", kHere), (PixelRect{0, 1, 20, 30}));
+  for (const char* text : {"", "1,2,3", "1,2,3,4,5", "1,2,3,", "1,2,3,x", "1,2,3,-4", "1,2,3,65537"}) {
+    SCOPED_TRACE(text);
+    EXPECT_THROW(parse_crop(text, kHere), InputError);
+  }
+}
+
 }  // namespace
 }  // namespace cambium
