@@ -107,6 +107,8 @@ struct BetweenEnds {
     if (since <= 0) return 0;
     return until <= 0 ? length : length * since / (since + until);
   }
+  /// Metres along the chain per metre along the segment.
+  double stretch(double length) const { return straight || since <= 0 || until <= 0 ? 1 : length / (since + until); }
 };
 
 /// q is counted from the segment's begin.
@@ -208,24 +210,27 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
   const Scratch& s = *scratch_;
   const TapeView view = scratch_->place(field, p);
   const CompiledTree& tree = view.tree;
-  const PointPolicy<double> policy(view, s);
+  const PointPolicy<Dual<double>> policy(view, s);
   for (const Instruction& in : view.tape.instructions()) {
     const CompiledNode& node = tree.nodes[in.node];
     const Op op = in.op;
     if (node.subtracted || (op != Op::kPrimitive && op != Op::kChain)) continue;
-    const double weight = op == Op::kChain ? policy.chain(in) : policy.primitive(in);
-    if (!(weight > 0)) continue;
+    const Dual<double> weight = op == Op::kChain ? policy.chain(in) : policy.primitive(in);
+    if (!(weight.f > 0)) continue;
     Contribution c;
-    c.weight = weight;
+    c.weight = weight.f;
+    c.weight_gradient = weight.g;
     c.primitive = in.node;
     c.branch = tree.leaf_of(node).branch;
     c.order = tree.leaf_of(node).order;
     const Vec3& q = s.points[in.frame];
-    const auto place = [&](const CarriedCoordinates& at, const Vec3& origin, double along) {
-      const Vec3 from = q - origin;
+    const auto place = [&](const CarriedCoordinates& at, const Vec3& origin, double along, double stretch) {
+      const Vec3 from = q - origin, across = from - glm::dot(from, at.axis) * at.axis, to_side = glm::cross(at.axis, at.u);
       c.v = at.v + along;
-      c.from_axis = glm::length(from - glm::dot(from, at.axis) * at.axis);
-      c.u = turns(std::atan2(glm::dot(from, glm::cross(at.axis, at.u)), glm::dot(from, at.u)));
+      c.v_gradient = stretch * at.axis;
+      c.from_axis = glm::length(across);
+      c.u = turns(std::atan2(glm::dot(from, to_side), glm::dot(from, at.u)));
+      if (c.from_axis > 0) c.u_gradient = glm::cross(at.axis, across) / (2 * std::numbers::pi * c.from_axis * c.from_axis);
     };
     if (op == Op::kChain) {
       double best = kInfinity;
@@ -254,12 +259,16 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
         ends = between();
       }
       const SweptSegment<double>& at = s.shapes.segments()[winner];
-      place(scratch_->shapes.coordinates(view, winner), at.a, ends.metres(at.end));
+      place(scratch_->shapes.coordinates(view, winner), at.a, ends.metres(at.end), ends.stretch(at.end));
     } else {
       const CompiledPrimitive& primitive = s.shapes.primitive(static_cast<std::size_t>(&in - view.tape.instructions().data()));
       const NativeAxis native = native_axis(primitive);
       c.radius = tree.radius_of(in.first);
-      place(tree.coordinates_of(in.first), native.origin, glm::dot(q - native.origin, native.axis));
+      place(tree.coordinates_of(in.first), native.origin, glm::dot(q - native.origin, native.axis), 1);
+    }
+    for (auto frame = in.frame; frame != 0; frame = view.outside_of(frame)) {
+      for (Vec3* gradient : {&c.weight_gradient, &c.u_gradient, &c.v_gradient})
+        *gradient = pull_back(view.warp_of(frame), s.points[view.outside_of(frame)], *gradient);
     }
     out.push_back(c);
   }

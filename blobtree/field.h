@@ -31,6 +31,9 @@ struct Contribution {
   double v = 0;        ///< metres along the branch axis, straight on beyond its ends
   double radius = 0;   ///< local surface radius, metres
   double from_axis = 0;             ///< metres from the line through the nearest piece of the axis
+  Vec3 weight_gradient{0.0};        ///< 1/m
+  Vec3 u_gradient{0.0};             ///< turns per metre, around the branch; where a chain turns it leaves that out
+  Vec3 v_gradient{0.0};             ///< metres per metre, along the branch; likewise
   std::uint32_t primitive = 0;      ///< which one (a chain is one): the same number all over the field
   std::uint32_t branch = 0;
   std::uint32_t order = 0;

@@ -3,6 +3,7 @@
 #include "blobtree/operators.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -29,11 +30,20 @@ SurfaceTraits averaged(const TraitedValue* f, std::size_t n) {
   return {sum.cut / total, sum.ridge / total, sum.dent / total};
 }
 
-std::vector<double> values(const TraitedValue* f, std::size_t n) {
-  std::vector<double> v(n);
-  for (std::size_t i = 0; i < n; ++i) v[i] = f[i].f;
-  return v;
-}
+/// The plain values in a row; on the stack where there are few, since every shaded point asks.
+class Values {
+ public:
+  Values(const TraitedValue* f, std::size_t n) {
+    if (n > few_.size()) many_.resize(n);
+    double* const values = many_.empty() ? few_.data() : many_.data();
+    for (std::size_t i = 0; i < n; ++i) values[i] = f[i].f;
+  }
+  const double* data() const { return many_.empty() ? few_.data() : many_.data(); }
+
+ private:
+  std::array<double, 16> few_;
+  std::vector<double> many_;
+};
 
 /// A ridge where two children come near the surface together: both near the iso-value, neither far ahead.
 double ridge_between(double first, double second, double width) {
@@ -74,27 +84,30 @@ TraitedValue difference_of(const TraitedValue& first, const TraitedValue* taken,
 }
 
 TraitedValue ricci_of(const TraitedValue* f, std::size_t n, double exponent) {
-  const std::vector<double> v = values(f, n);
+  const Values v(f, n);
   return {ricci_of(v.data(), n, exponent), averaged(f, n)};
 }
 
 TraitedValue contact_of(const TraitedValue* f, std::size_t n, bool with_zero, double width, double lip) {
-  std::vector<double> v = values(f, n);
+  const Values v(f, n);
   TraitedValue out{contact_of(v.data(), n, with_zero, width, lip), averaged(f, n)};
-  if (with_zero) v.push_back(0);
-  std::sort(v.begin(), v.end(), std::greater<>());
-  if (v.size() > 1) out.traits.ridge = std::max(out.traits.ridge, ridge_between(v[0], v[1], width));
+  double first = with_zero ? 0 : -kInfinity, second = -kInfinity;
+  for (std::size_t i = 0; i < n; ++i) {
+    second = std::max(second, std::min(first, f[i].f));
+    first = std::max(first, f[i].f);
+  }
+  if (second > -kInfinity) out.traits.ridge = std::max(out.traits.ridge, ridge_between(first, second, width));
   return out;
 }
 
 TraitedValue fork_of(const TraitedValue& axis, const TraitedValue* f, const TraitedValue* weights, std::size_t n, bool with_zero,
                      double width, double lip) {
-  const std::vector<double> v = values(f, n), w = values(weights, n);
+  const Values v(f, n), w(weights, n);
   const double value = fork_of(axis.f, v.data(), w.data(), n, with_zero, width, lip);
   double total = 0, share = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    total += std::max(0.0, v[k]);
-    share += std::max(0.0, v[k]) * w[k];
+    total += std::max(0.0, f[k].f);
+    share += std::max(0.0, f[k].f) * weights[k].f;
   }
   if (!(total > 0)) return {value, axis.traits};
   const TraitedValue joined = contact_of(f, n, with_zero, width, lip);

@@ -1,66 +1,83 @@
 #include "raytrace/bark.h"
 
-#include "raytrace/bark_pattern.h"
+#include "raytrace/bark_texture.h"
+#include "raytrace/bark_wounds.h"
 #include "raytrace/hash.h"
-#include "raytrace/texture_image.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace cambium {
 namespace {
 
-double smooth(double lo, double hi, double x) {
-  const double t = std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
+/// Steeper relief than this is shaded as if it were this steep: a normal map cannot hide what is behind a step.
+constexpr double kSteepest = 1.4;
 
-/// The texture goes round a whole number of times, and that number may not jump along a tapering branch: the two neighbouring
-/// powers of two are faded over.
-Vec3 textured(const BarkMaterial& material, const Contribution& c, double footprint) {
-  const TextureImage& image = *material.texture;
-  const double size = std::max(1e-6, material.texture_size * material.scale);
-  const double turns = 2 * std::numbers::pi * c.radius / (size * image.aspect());
-  const double level = std::log2(std::clamp(turns, 1.0, 1024.0));
-  const double whole = std::floor(level), weight = smooth(0.35, 0.65, level - whole);
-  const double pixels = footprint / size;
-  const Vec3 few = image.lookup(c.u * std::exp2(whole), c.v / size, pixels);
-  return weight <= 0 ? few : glm::mix(few, image.lookup(c.u * std::exp2(whole + 1), c.v / size, pixels), weight);
-}
+/// A primitive whose field is a smaller part than this of the largest is left out: it would cost as much as all the others.
+constexpr double kNegligible = 0.05;
 
-/// Distance from the axis in surface radii, back from the field value of an unblended primitive.
-double radii_from_axis(double weight) {
-  return kSupportPerRadius * std::sqrt(std::max(0.0, 1 - std::cbrt(std::clamp(weight, 0.0, 1.0))));
-}
-
-/// Sawn wood: pale, with growth rings that darken to the late wood and a dark pith.
-Vec3 wood(const Contribution& c, double footprint, std::uint64_t seed) {
-  const double from_axis = radii_from_axis(c.weight);
-  const double wobble = 0.012 * (bark_noise(c.u * 6, 3 * from_axis, 6, seed ^ 51) - 0.5);
-  const double rings = std::clamp(std::round(c.radius / 0.004), 5.0, 24.0);
-  const double x = std::pow(std::clamp(from_axis + wobble, 0.0, 1.2), 0.85) * rings, phase = x - std::floor(x);
-  const double kept = 1 - smooth(0.3, 1.0, footprint * rings / c.radius);
-  const double late = kept * smooth(0.35, 0.95, phase) * (1 - smooth(0.95, 1.0, phase)) + (1 - kept) * 0.4;
-  const double ray = 0.94 + 0.12 * bark_noise(c.u * 48, 4 * from_axis, 48, seed ^ 52);
-  Vec3 color = glm::mix(Vec3(0.62, 0.47, 0.29), Vec3(0.40, 0.25, 0.125), 0.75 * late) * ray;
-  color = glm::mix(color, Vec3(0.40, 0.27, 0.14), 0.55 * (1 - smooth(0.15, 0.45, from_axis)));   // heartwood
-  color = glm::mix(color, Vec3(0.16, 0.10, 0.06), 1 - smooth(0.02, 0.05, from_axis));            // pith
-  return glm::mix(color, Vec3(0.11, 0.085, 0.06), smooth(0.90, 0.95, from_axis));                // the bark seen end on
-}
+/// How the outer colour changes where a pattern is warm by 1.
+constexpr Vec3 kWarmth(0.16, 0.01, -0.15);
 
 std::vector<Contribution>& scratch() {
   thread_local std::vector<Contribution> contributions;
   return contributions;
 }
 
+/// One primitive's bark, before blending.
+struct Layer {
+  Vec3 albedo{0.0};
+  double roughness = 0.85, height = 1, relief = 0;
+  Vec3 relief_gradient{0.0};
+};
+
+Vec3 pattern_color(const BarkMaterial& m, double outer, double inner, double warm, double young) {
+  const Vec3 color = young > 0 ? glm::mix(m.color, m.young_color.value_or(m.color), young) : m.color;
+  return glm::max(Vec3(0.0), color * (Vec3(outer) + warm * kWarmth) + inner * m.crack_color);
+}
+
+template <BarkNumber N>
+Layer patterned(const BarkMaterial& m, const Contribution& c, std::uint64_t seed, double footprint) {
+  N u, v;
+  if constexpr (std::same_as<N, Sloped>) {
+    u = {c.u, 1, 0};
+    v = {c.v, 0, 1};
+  } else {
+    u = c.u;
+    v = c.v;
+  }
+  const auto texel = bark_pattern<N>({m.style, m.scale, m.mature_radius, hash_of(seed, c.branch)}, u, v, c.radius, footprint);
+  Layer layer{pattern_color(m, texel.outer, texel.inner, texel.warm, texel.young), texel.roughness, texel.height,
+              value_of(texel.relief), Vec3(0.0)};
+  if constexpr (std::same_as<N, Sloped>) layer.relief_gradient = texel.relief.u * c.u_gradient + texel.relief.v * c.v_gradient;
+  return layer;
+}
+
+Layer textured(const BarkMaterial& m, const Contribution& c, double footprint) {
+  const BarkMaps maps{*m.texture, m.normal_map.get(), m.roughness_map.get(), m.texture_size * m.scale};
+  const MappedBark mapped = maps.at(c.u, c.v, c.radius, footprint);
+  Layer layer{mapped.albedo, mapped.roughness, 1, 0, Vec3(0.0)};
+  const double turns_per_metre = glm::length(c.u_gradient);
+  if (turns_per_metre > 0) layer.relief_gradient = (mapped.slope.x / turns_per_metre) * c.u_gradient + mapped.slope.y * c.v_gradient;
+  return layer;
+}
+
+/// The surface's normal as relief of this gradient tilts it.
+Vec3 tilted(const Vec3& normal, const Vec3& gradient) {
+  const Vec3 along = gradient - glm::dot(gradient, normal) * normal;
+  const double slope = glm::length(along);
+  return glm::normalize(normal - (slope > kSteepest ? kSteepest / slope : 1.0) * along);
+}
+
 }  // namespace
 
 std::vector<BarkMaterial> poplar_bark() {
-  BarkMaterial trunk{BarkStyle::kRidged, {0.270, 0.235, 0.195}, {0.060, 0.047, 0.036}, 1, nullptr, 0.3};
-  BarkMaterial branch{BarkStyle::kSmooth, {0.275, 0.280, 0.195}, {0.120, 0.095, 0.060}, 1, nullptr, 0.3};
-  BarkMaterial twig{BarkStyle::kSmooth, {0.250, 0.120, 0.062}, {0.420, 0.300, 0.190}, 0.7, nullptr, 0.3};
+  const Vec3 olive(0.275, 0.280, 0.195);
+  const BarkMaterial trunk{.style = BarkStyle::kRidged, .color = {0.270, 0.235, 0.195}, .crack_color = {0.060, 0.047, 0.036},
+                           .young_color = olive};
+  const BarkMaterial branch{.style = BarkStyle::kSmooth, .color = olive, .crack_color = {0.120, 0.095, 0.060}};
+  const BarkMaterial twig{.style = BarkStyle::kSmooth, .color = {0.250, 0.120, 0.062}, .crack_color = {0.420, 0.300, 0.190}, .scale = 0.7};
   return {trunk, branch, twig};
 }
 
@@ -72,101 +89,78 @@ const BarkMaterial& Bark::material(std::uint32_t order) const {
 }
 
 BarkLook Bark::look(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal, double footprint) const {
-  BarkLook out = glance(evaluator, field, p, footprint);
-  out.normal = shading_normal(evaluator, field, p, normal, footprint);
-  return out;
+  evaluator.contributions(field, p, scratch());
+  return look(scratch(), evaluator.surface_traits(field, p), normal, footprint);
 }
 
 BarkLook Bark::glance(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const {
-  std::vector<Contribution>& contributions = scratch();
-  evaluator.contributions(field, p, contributions);
-  return glance(contributions, evaluator.surface_traits(field, p), footprint);
+  evaluator.contributions(field, p, scratch());
+  return glance(scratch(), evaluator.surface_traits(field, p), footprint);
 }
 
-BarkLook Bark::glance(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint) const {
-  BarkLook out;
-  out.height = 0;
-  double total = 0;
-  const Contribution* main = nullptr;
-  for (const Contribution& c : contributions) {
-    if (!(c.weight > 0)) continue;
-    const BarkMaterial& m = material(c.order);
-    const BarkTexel texel = bark_pattern(m.style, m.scale, c.u, c.v, c.radius, hash_of(seed_, c.branch), footprint);
-    Vec3 color;
-    if (m.texture) {
-      color = textured(m, c, footprint);
-    } else {
-      color = glm::mix(m.crack_color, m.color * texel.shade, texel.height);
-      color = glm::mix(color, m.crack_color, texel.mark);
-    }
-    out.albedo += c.weight * color;
-    out.height += c.weight * texel.height;
-    out.relief += c.weight * texel.height * bark_depth(m.style) * c.radius;
-    total += c.weight;
-    if (!main || c.weight > main->weight) main = &c;
-  }
-  if (!main) {
-    out.albedo = by_order_[0].color;
-    out.height = 1;
-    return out;
-  }
-  out.branch = main->branch;
-  out.order = main->order;
-  out.uv = {main->u, main->v};
-  out.ridge = traits.ridge;
-  out.albedo /= total;
-  out.height /= total;
-  out.relief /= total;
-
-  const double grain = 0.9 + 0.2 * bark_noise(main->u * 24, main->v / std::max(main->radius, 1e-6) * 3, 24, seed_ ^ 61);
-  if (traits.ridge > 0) out.albedo = glm::mix(out.albedo, out.albedo * Vec3(0.52, 0.43, 0.33), std::min(1.0, traits.ridge));
-  if (traits.dent > 0) {
-    out.albedo = glm::mix(out.albedo, Vec3(0.20, 0.19, 0.175) * grain, std::min(1.0, traits.dent));
-    out.relief *= 1 - 0.6 * std::min(1.0, traits.dent);
-  }
-  if (traits.cut > 0) {
-    const double cut = std::min(1.0, traits.cut);
-    out.albedo = glm::mix(out.albedo, wood(*main, footprint, hash_of(seed_, main->branch)), cut);
-    out.height = glm::mix(out.height, 1.0, cut);
-    out.relief *= 1 - cut;
-  }
-  out.albedo = glm::clamp(out.albedo, 0.0, 0.95);
+BarkLook Bark::look(std::span<const Contribution> contributions, const SurfaceTraits& traits, const Vec3& normal,
+                    double footprint) const {
+  Vec3 gradient(0.0);
+  BarkLook out = blended<Sloped>(contributions, traits, footprint, gradient);
+  out.normal = tilted(normal, gradient);
   return out;
 }
 
-double Bark::relief_at(Evaluator& evaluator, const PrunedField& field, const Vec3& p, double footprint) const {
-  std::vector<Contribution>& contributions = scratch();
-  evaluator.contributions(field, p, contributions);
-  double sum = 0, total = 0;
+BarkLook Bark::glance(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint) const {
+  Vec3 none(0.0);
+  return blended<double>(contributions, traits, footprint, none);
+}
+
+template <BarkNumber N>
+BarkLook Bark::blended(std::span<const Contribution> contributions, const SurfaceTraits& traits, double footprint,
+                       Vec3& relief_gradient) const {
+  const Contribution* main = nullptr;
   for (const Contribution& c : contributions) {
-    if (!(c.weight > 0)) continue;
-    const BarkMaterial& m = material(c.order);
-    const BarkTexel texel = bark_pattern(m.style, m.scale, c.u, c.v, c.radius, hash_of(seed_, c.branch), footprint);
-    sum += c.weight * texel.height * bark_depth(m.style) * c.radius;
-    total += c.weight;
+    if (c.weight > 0 && (!main || c.weight > main->weight)) main = &c;
   }
-  return total > 0 ? sum / total : 0;
+  BarkLook out;
+  if (!main) {
+    out.albedo = by_order_[0].color;
+    return out;
+  }
+  Layer sum{Vec3(0.0), 0, 0, 0, Vec3(0.0)};
+  double total = 0;
+  Vec3 total_gradient(0.0), reweighed(0.0);   // of the weights, and of the blend as they change
+  for (const Contribution& c : contributions) {
+    const double share = c.weight / main->weight, over = share - kNegligible;
+    if (!(over > 0)) continue;
+    const BarkMaterial& m = material(c.order);
+    const Layer layer = m.texture ? textured(m, c, footprint) : patterned<N>(m, c, seed_, footprint);
+    const double weight = over * over * over;
+    sum.albedo += weight * layer.albedo;
+    sum.roughness += weight * layer.roughness;
+    sum.height += weight * layer.height;
+    sum.relief += weight * layer.relief;
+    total += weight;
+    if constexpr (std::same_as<N, Sloped>) {
+      const Vec3 gradient = (3 * over * over / main->weight) * (c.weight_gradient - share * main->weight_gradient);
+      sum.relief_gradient += weight * layer.relief_gradient;
+      reweighed += layer.relief * gradient;
+      total_gradient += gradient;
+    }
+  }
+  out.albedo = sum.albedo / total;
+  out.roughness = sum.roughness / total;
+  out.height = sum.height / total;
+  out.relief = sum.relief / total;
+  relief_gradient = (sum.relief_gradient + reweighed - out.relief * total_gradient) / total;
+  out.ridge = traits.ridge;
+  out.branch = main->branch;
+  out.order = main->order;
+  out.uv = {main->u, main->v};
+  if (traits.ridge > 0 || traits.dent > 0 || traits.cut > 0) show_wounds(*main, traits, footprint, seed_, out, relief_gradient);
+  out.albedo = glm::clamp(out.albedo, 0.0, 0.95);
+  out.roughness = std::clamp(out.roughness, 0.05, 1.0);
+  return out;
 }
 
-Vec3 Bark::shading_normal(Evaluator& evaluator, const PrunedField& field, const Vec3& p, const Vec3& normal,
-                          double footprint) const {
-  if (!(field.smallest_radius() < kInfinity)) return normal;
-  // Half a pixel, but not below a hundredth of the girth's finest plates nor past the cell's own scale.
-  const double step = std::clamp(0.5 * footprint, 2e-3 * field.smallest_radius(), 0.3 * field.smallest_radius());
-  const Vec3 side = std::abs(normal.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
-  const Vec3 s = glm::normalize(glm::cross(side, normal)), t = glm::cross(normal, s);
-  // Just outside its box the pruned field lacks only what is about to fade in, so differences may reach across: turning them
-  // round at the box would draw its outline on the bark.
-  const double here = relief_at(evaluator, field, p, footprint);
-  const double ds = (relief_at(evaluator, field, p + step * s, footprint) - here) / step;
-  const double dt = (relief_at(evaluator, field, p + step * t, footprint) - here) / step;
-  const double slope = std::hypot(ds, dt), limit = 1.1;
-  const double scale = slope > limit ? limit / slope : 1;
-  return glm::normalize(normal - scale * (ds * s + dt * t));
-}
-
-std::shared_ptr<const TextureImage> load_texture(const std::filesystem::path& path) {
-  return std::make_shared<const TextureImage>(read_pixels(path));
+std::shared_ptr<const TextureImage> load_texture(const std::filesystem::path& path, TextureUse use) {
+  return std::make_shared<const TextureImage>(read_pixels(path), use);
 }
 
 }  // namespace cambium

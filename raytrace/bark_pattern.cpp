@@ -1,180 +1,248 @@
 #include "raytrace/bark_pattern.h"
 
+#include "raytrace/bark_lattice.h"
 #include "raytrace/hash.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace cambium {
 namespace {
 
-double smooth(double lo, double hi, double x) {
-  const double t = std::clamp((x - lo) / (hi - lo), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-double lerp(double a, double b, double t) { return a + (b - a) * t; }
-
-std::uint64_t wrapped(double cell, std::uint32_t period) {
-  const double p = static_cast<double>(period);
-  return static_cast<std::uint64_t>(cell - p * std::floor(cell / p));
-}
-std::uint64_t row_bits(double cell) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(cell)); }
-
-/// How much of a detail of this size survives under a pixel.
-double kept(double detail, double footprint) { return 1 - smooth(0.35, 1.2, footprint / detail); }
-
-/// Distances to the nearest and second nearest of jittered cell points, and the nearest's own random number.
-struct Cellular {
-  double nearest = 9, second = 9, random = 0;
+/// What the styles have in common: how large a plate or pore is where it grows on a radius of kUsualRadius, and how much it grows
+/// with the girth (plates of a thick trunk are larger than those of a thin one, but not in proportion).
+struct Growth {
+  double width = 0.03;      ///< metres around the girth
+  double power = 0.5;       ///< width goes with radius^power
+  double elongation = 1;    ///< height of a cell over its width
 };
-Cellular cellular(double x, double y, std::uint32_t period, std::uint64_t seed, double jitter) {
-  Cellular out;
-  const double cx = std::floor(x), cy = std::floor(y);
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      const std::uint64_t bits = hash_of(seed, wrapped(cx + dx, period), row_bits(cy + dy));
-      const double px = cx + dx + 0.5 + jitter * (unit_of(bits) - 0.5);
-      const double py = cy + dy + 0.5 + jitter * (unit_of(mix_bits(bits + 1)) - 0.5);
-      const double d = std::sqrt((x - px) * (x - px) + (y - py) * (y - py));
-      if (d < out.nearest) {
-        out.second = out.nearest;
-        out.nearest = d;
-        out.random = unit_of(mix_bits(bits + 2));
-      } else if (d < out.second) {
-        out.second = d;
-      }
-    }
-  }
-  return out;
-}
+constexpr double kUsualRadius = 0.12;
 
-/// Deep vertical fissures that braid: rows of long cells, wandering around the girth, broken by shorter cross cracks.
-BarkTexel ridged(double scale, double u, double v, double unit, std::uint64_t seed, double footprint) {
-  const auto plates = static_cast<std::uint32_t>(std::max(5.0, std::round(15 * scale)));
-  const double width = 2 * std::numbers::pi * unit / plates, y = v / (width * 5.5);
-  const double x0 = u * plates;
-  const double wander = 1.5 * (bark_noise(x0, y * 1.3, plates, seed ^ 11) - 0.5) +
-                        0.35 * (bark_noise(x0 * 2, y * 9, 2 * plates, seed ^ 12) - 0.5);
-  const Cellular plate = cellular(x0 + wander, y + 0.12 * (bark_noise(x0 * 2, y * 6, 2 * plates, seed ^ 13) - 0.5), plates, seed, 0.75);
-  const double body = smooth(0.03, 0.42, plate.second - plate.nearest);
-  const double grain = bark_noise(x0 * 6, y * 26, 6 * plates, seed ^ 14);
-  const double fine = bark_noise(x0 * 16, y * 70, 16 * plates, seed ^ 15);
-  BarkTexel out;
-  out.height = std::clamp(body * (0.80 + 0.20 * lerp(0.5, grain, kept(0.16 * width, footprint))), 0.0, 1.0);
-  out.height = lerp(0.62, out.height, kept(0.9 * width, footprint));
-  out.shade = (0.84 + 0.32 * lerp(0.5, plate.random, kept(width, footprint))) *
-              (0.86 + 0.28 * lerp(0.5, fine, kept(0.06 * width, footprint)));
-  return out;
-}
-
-/// Isodiametric plates that lift from their edges.
-BarkTexel plated(double scale, double u, double v, double unit, std::uint64_t seed, double footprint) {
-  const auto plates = static_cast<std::uint32_t>(std::max(4.0, std::round(9 * scale)));
-  const double width = 2 * std::numbers::pi * unit / plates, x = u * plates, y = v / (width * 1.5);
-  const double bend = 0.5 * (bark_noise(x * 2, y * 2, 2 * plates, seed ^ 21) - 0.5);
-  const Cellular plate = cellular(x + bend, y + bend, plates, seed, 0.85);
-  const double edge = smooth(0.02, 0.16, plate.second - plate.nearest);
-  const double layer = bark_noise(x * 4, y * 12, 4 * plates, seed ^ 22);
-  BarkTexel out;
-  out.height = lerp(0.8, std::clamp(edge * (0.75 + 0.25 * layer), 0.0, 1.0), kept(0.5 * width, footprint));
-  out.shade = (0.75 + 0.5 * lerp(0.5, plate.random, kept(width, footprint))) *
-              (0.88 + 0.24 * lerp(0.5, layer, kept(0.2 * width, footprint)));
-  return out;
-}
-
-/// Lens-shaped pores: sparse, wider than high on smooth young bark, long bands on birch.
-double lenticels(double x, double y, std::uint32_t period, std::uint64_t seed, double share, double half_width, double half_height) {
-  const double cx = std::floor(x), cy = std::floor(y);
-  double mark = 0;
-  // Pores of the neighbouring cells that are in reach.
-  const auto least = [](double past, double reach) { return past < reach ? -1 : 0; };
-  const auto most = [](double past, double reach) { return 1 - past < reach ? 1 : 0; };
-  for (int dy = least(y - cy, half_height); dy <= most(y - cy, half_height); ++dy) {
-    for (int dx = least(x - cx, half_width); dx <= most(x - cx, half_width); ++dx) {
-      const std::uint64_t bits = hash_of(seed, wrapped(cx + dx, period), row_bits(cy + dy));
-      if (unit_of(bits) > share) continue;
-      const double size = 0.55 + 0.45 * unit_of(mix_bits(bits + 1));
-      const double px = cx + dx + unit_of(mix_bits(bits + 2)), py = cy + dy + unit_of(mix_bits(bits + 3));
-      const double along = (x - px) / (half_width * size), up = (y - py) / (half_height * size);
-      const double d = std::sqrt(along * along + up * up);
-      mark = std::max(mark, 1 - smooth(0.55, 1.0, d));
-    }
-  }
-  return mark;
-}
-
-BarkTexel young(double scale, double u, double v, double unit, std::uint64_t seed, double footprint) {
-  const auto around = static_cast<std::uint32_t>(std::max(3.0, std::round(7 * scale)));
-  const double width = 2 * std::numbers::pi * unit / around, x = u * around, y = v / width;
-  const double blotch = bark_noise(x, y * 0.6, around, seed ^ 31);
-  const double grain = bark_noise(x * 5, y * 9, 5 * around, seed ^ 32);
-  BarkTexel out;
-  out.mark = lenticels(x, y, around, seed ^ 33, 0.5, 0.20, 0.10) * kept(0.2 * width, footprint);
-  out.height = 0.93 + 0.07 * lerp(0.5, grain, kept(0.2 * width, footprint)) - 0.25 * out.mark;
-  out.shade = (0.86 + 0.28 * lerp(0.5, blotch, kept(width, footprint))) * (0.94 + 0.12 * lerp(0.5, grain, kept(0.2 * width, footprint)));
-  return out;
-}
-
-BarkTexel birch(double scale, double u, double v, double unit, std::uint64_t seed, double footprint) {
-  const auto around = static_cast<std::uint32_t>(std::max(2.0, std::round(4 * scale)));
-  const double width = 2 * std::numbers::pi * unit / around, x = u * around, y = v / (0.22 * width);
-  const double peel = bark_noise(x * 2, y * 3.3, 2 * around, seed ^ 41);
-  const double patch = bark_noise(x, y * 0.16, around, seed ^ 42);
-  BarkTexel out;
-  out.mark = std::max(lenticels(x, y, around, seed ^ 43, 0.45, 0.42, 0.10), 0.9 * smooth(0.74, 0.86, patch));
-  out.mark *= kept(0.08 * width, footprint);
-  out.height = lerp(0.9, std::clamp(0.8 + 0.2 * peel - 0.3 * out.mark, 0.0, 1.0), kept(0.15 * width, footprint));
-  out.shade = 0.90 + 0.20 * lerp(0.5, peel, kept(0.15 * width, footprint));
-  return out;
-}
-
-BarkTexel pattern_at(BarkStyle style, double scale, double u, double v, double unit, std::uint64_t seed, double footprint) {
+Growth growth_of(BarkStyle style) {
   switch (style) {
-    case BarkStyle::kRidged: return ridged(scale, u, v, unit, seed, footprint);
-    case BarkStyle::kPlated: return plated(scale, u, v, unit, seed, footprint);
-    case BarkStyle::kSmooth: return young(scale, u, v, unit, seed, footprint);
-    case BarkStyle::kBirch: return birch(scale, u, v, unit, seed, footprint);
+    case BarkStyle::kRidged: return {0.030, 0.55, 5.0};
+    case BarkStyle::kPlated: return {0.055, 0.60, 1.7};
+    case BarkStyle::kSmooth: return {0.040, 0.75, 1.0};
+    case BarkStyle::kBirch: return {0.110, 0.75, 0.22};
   }
   return {};
 }
 
-}  // namespace
+/// Deep furrows that braid around long flat ridges.
+template <BarkNumber N>
+BarkTexel<N> ridged(const BarkLattice<N>& at, double open) {
+  const N wander = 0.62 * at.noise(1, 1.3, 1) + 0.16 * at.noise(3, 5, 2);
+  const N rise = 0.25 * at.noise(2, 2, 3);
+  const N ragged = at.kept(0.25) * 0.055 * at.noise(7, 21, 4) + at.kept(0.09) * 0.03 * at.noise(18, 60, 5);
+  const auto ridge = at.cells(at.x + wander, at.y + rise, 0.85, 0);
+  // Some furrows are wide, others hardly open.
+  const N body = smooth(-0.02, 0.30 * open, ridge.border + ragged + (0.10 * open) * at.noise(1, 0.8, 11));
+  // The flat top is broken into small scales, and weathered along the grain.
+  const auto scale = at.cells(3.0 * at.x + 1.2 * wander + 3.0 * ragged, 3.5 * at.y + 8.0 * ragged, 0.9, 6, 3, 3.5);
+  const double scaly = at.kept(0.3);
+  const N chipped = scaly * smooth(0.15, 0.02, scale.border + 2.0 * ragged);
+  const N grain = at.kept(0.1) * at.noise(11, 16, 7) + at.kept(0.03) * 0.6 * at.noise(31, 50, 8);
+  const N top = 0.86 + 0.16 * scaly * (scale.random - 0.5) - 0.16 * chipped + 0.12 * grain;
+  BarkTexel<N> out;
+  const N height = body * top;
+  out.relief = 0.42 * at.width * open * (height - 1.0);
+  out.height = std::clamp(value_of(height), 0.0, 1.0);
+  const double b = value_of(body), cover = smooth(0.10, 0.80, b);
+  const double shade = 1 + 0.30 * (ridge.random - 0.5) + 0.16 * scaly * (scale.random - 0.5) + 0.30 * value_of(grain) -
+                       0.34 * value_of(chipped) + 0.30 * value_of(at.noise(1, 0.4, 9));
+  out.outer = cover * shade;
+  out.inner = (1 - cover) * (1 + 0.5 * value_of(grain));
+  out.warm = cover * (1.6 * (1 - b) + 0.8 * scaly * (scale.random - 0.5) + 0.9 * value_of(at.noise(1, 0.7, 10)));
+  out.roughness = 0.88 + 0.08 * (1 - b);
+  return out;
+}
 
-double bark_noise(double x, double y, std::uint32_t period, std::uint64_t seed) {
-  const double cx = std::floor(x), cy = std::floor(y);
-  const std::uint64_t left = wrapped(cx, period), right = left + 1 < period ? left + 1 : 0;
-  const std::uint64_t low = row_bits(cy), high = row_bits(cy + 1);
-  const auto corner = [&](std::uint64_t column, std::uint64_t row) { return unit_of(hash_of(seed, column, row)); };
-  const double fx = smooth(0, 1, x - cx), fy = smooth(0, 1, y - cy);
-  return lerp(lerp(corner(left, low), corner(right, low), fx), lerp(corner(left, high), corner(right, high), fx), fy);
+/// Large plates, split in layers whose edges flake off.
+template <BarkNumber N>
+BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
+  const N bend = 0.45 * at.noise(1, 1, 1) + 0.14 * at.noise(4, 4, 2), rise = 0.40 * at.noise(1, 1.4, 3) + 0.12 * at.noise(4, 5, 4);
+  const N ragged = at.kept(0.2) * 0.05 * at.noise(9, 12, 5) + at.kept(0.07) * 0.025 * at.noise(25, 34, 6);
+  const auto plate = at.cells(at.x + bend, at.y + rise, 0.95, 0);
+  const N body = smooth(-0.01, 0.20 * open, plate.border + ragged);
+  // Sheets: the steps of a slow noise that follows the plate's border, each with its own tone.
+  const N slow = 2.6 * at.noise(2, 2, 7) + 1.5 * at.noise(5, 5, 8) + 9.0 * ragged + 3.0 * plate.border + 9 * plate.random;
+  const double whole = std::floor(value_of(slow)), sheet = at.kept(0.15);
+  const N past = slow - whole, step = smooth(0.0, 0.22, past);
+  const double last = at.random(whole - 1) - 0.5, layer = sheet * (last + value_of(step) * (at.random(whole) - 0.5 - last));
+  const N grain = at.kept(0.06) * at.noise(17, 22, 9) + at.kept(0.025) * 0.6 * at.noise(45, 60, 11);
+  BarkTexel<N> out;
+  // Every sheet's edge is a small step; the sheet itself leans the other way, so that steps do not add up.
+  const N top = 0.86 + sheet * 0.12 * (step - past) + 0.06 * grain;
+  const N height = body * top;
+  out.relief = 0.26 * at.width * open * (height - 1.0);
+  out.height = std::clamp(value_of(height), 0.0, 1.0);
+  const double b = value_of(body), cover = smooth(0.08, 0.7, b), edge = sheet * (1 - value_of(step));
+  const double shade = 1 + 0.30 * layer + 0.25 * (plate.random - 0.5) + 0.26 * value_of(grain) - 0.30 * edge +
+                       0.25 * value_of(at.noise(1, 1, 12));
+  out.outer = cover * shade;
+  out.inner = (1 - cover) * (1 + 0.4 * value_of(grain));
+  out.warm = cover * (1.2 * layer + 0.9 * edge + 0.8 * (1 - b) + 1.0 * value_of(at.noise(1, 0.8, 10)));
+  out.roughness = 0.80 + 0.12 * (1 - b);
+  return out;
+}
+
+/// Skin with pores, faint wrinkles and blotches.
+template <BarkNumber N>
+BarkTexel<N> smooth_skin(const BarkLattice<N>& at, double) {
+  const double pore_kept = at.kept(0.10);
+  const N pore = pore_kept > 0 ? pore_kept * at.pores(at.x, 1.6 * at.y, 0.6, 0.16, 0.07, 1) : N(0.0);
+  const N wrinkle = at.kept(0.12) * at.noise(3, 14, 2) + at.kept(0.05) * 0.6 * at.noise(9, 40, 3);
+  const N swell = at.noise(1, 0.8, 4);
+  const N grain = at.kept(0.04) * at.noise(26, 26, 5);
+  const double blotch = smooth(-0.05, 0.25, value_of(at.noise(1, 0.9, 6)) + 0.5 * at.kept(0.2) * value_of(at.noise(5, 5, 7)) +
+                                                0.3 * value_of(grain));
+  BarkTexel<N> out;
+  const N height = 0.86 + 0.08 * wrinkle + 0.20 * swell + 0.03 * grain + 0.35 * pore;
+  out.relief = 0.055 * at.width * (height - 1.0);
+  out.height = std::clamp(0.92 + 0.05 * value_of(wrinkle), 0.0, 1.0);
+  const double p = value_of(pore);
+  const double shade = 1 + 0.20 * (blotch - 0.5) + 0.16 * value_of(wrinkle) + 0.14 * value_of(grain) +
+                       0.16 * at.kept(0.3) * value_of(at.noise(4, 0.5, 8));
+  out.outer = (1 - 0.85 * p) * shade;
+  out.inner = 0.85 * p;
+  out.warm = (1 - p) * (0.8 * value_of(at.noise(1, 0.5, 9)) - 0.25 * (blotch - 0.5));
+  out.roughness = 0.62 + 0.10 * blotch + 0.15 * p;
+  return out;
+}
+
+/// White paper with dark bands, that peels in thin curls.
+template <BarkNumber N>
+BarkTexel<N> birch(const BarkLattice<N>& at, double) {
+  const N ragged = at.kept(0.03) * at.noise(22, 8, 1);
+  const N band = at.kept(0.05) * at.pores(1.0 * at.x, 0.7 * at.y + 0.05 * ragged, 0.40, 0.46, 0.09, 2);
+  const N dash = at.kept(0.03) * at.pores(6.0 * at.x, 1.7 * at.y + 0.05 * ragged, 0.38, 0.42, 0.09, 3, 6);
+  const N sheet = at.noise(1, 0.8, 4) + 0.25 * at.kept(0.08) * at.noise(6, 2, 5) + 0.10 * ragged;
+  // A sheet that has come off shows the young, warmer one below, and throws up its rim.
+  const N peeled = at.kept(0.04) * smooth(0.24, 0.27, sheet);
+  const N rim = peeled * smooth(0.34, 0.25, sheet);
+  const N mark = larger(band, 0.75 * dash);
+  BarkTexel<N> out;
+  const N height = 0.86 + 0.10 * sheet - 0.20 * mark - 0.14 * peeled + 0.26 * rim;
+  out.relief = 0.018 * at.width * (height - 1.0);
+  out.height = std::clamp(0.95 - 0.25 * value_of(mark), 0.0, 1.0);
+  const double m = value_of(mark), p = value_of(peeled), r = value_of(rim);
+  const double streak = at.kept(0.02) * value_of(at.noise(5, 12, 6));
+  out.outer = (1 - 0.92 * m) * (1 + 0.12 * value_of(sheet) + 0.10 * streak - 0.12 * p - 0.1 * r + 0.2 * value_of(at.noise(1, 0.1, 7)));
+  out.inner = 0.92 * m;
+  out.warm = (1 - m) * (0.9 * p + 0.3 * value_of(sheet));
+  out.roughness = 0.55 + 0.3 * m;
+  return out;
+}
+
+template <BarkNumber N>
+BarkTexel<N> styled(BarkStyle style, const BarkLattice<N>& at, double open) {
+  switch (style) {
+    case BarkStyle::kRidged: return ridged(at, open);
+    case BarkStyle::kPlated: return plated(at, open);
+    case BarkStyle::kSmooth: return smooth_skin(at, open);
+    case BarkStyle::kBirch: return birch(at, open);
+  }
+  return {};
+}
+
+template <BarkNumber N>
+BarkTexel<N> mixed_texels(const BarkTexel<N>& a, const BarkTexel<N>& b, double t) {
+  return {mixed(a.relief, b.relief, t),   mixed(a.height, b.height, t), mixed(a.outer, b.outer, t),
+          mixed(a.inner, b.inner, t),     mixed(a.warm, b.warm, t),     mixed(a.roughness, b.roughness, t), mixed(a.young, b.young, t)};
+}
+
+BarkTexel<double> sum_of(const BarkTexel<double>& a, const BarkTexel<double>& b) {
+  return {a.relief + b.relief, a.height + b.height, a.outer + b.outer, a.inner + b.inner, a.warm + b.warm, a.roughness + b.roughness,
+          a.young + b.young};
+}
+
+constexpr BarkTexel<double> kNothing{0.0, 0, 0, 0, 0, 0, 0};
+
+/// The mean of a style over enough of it; relief in widths of a column.
+BarkTexel<double> averaged(BarkStyle style, double open) {
+  constexpr int kSide = 80, kColumns = 32;
+  BarkTexel<double> sum = kNothing;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const double x = kColumns * (i % kSide + 0.5) / kSide, y = kColumns * (i / kSide + 0.5) / kSide;
+    sum = sum_of(sum, styled(style, BarkLattice<double>{x, y, 1, growth_of(style).elongation, kColumns, 77, 0}, open));
+  }
+  return mixed_texels(kNothing, sum, 1.0 / (kSide * kSide));
+}
+
+/// The same from a table, worked out once.
+BarkTexel<double> mean_texel(BarkStyle style, double open) {
+  constexpr int kSteps = 4;
+  static const auto table = [] {
+    std::array<std::array<BarkTexel<double>, kSteps + 1>, 4> means;
+    for (std::size_t s = 0; s < means.size(); ++s)
+      for (int k = 0; k <= kSteps; ++k) means[s][static_cast<std::size_t>(k)] = averaged(static_cast<BarkStyle>(s), std::max(1e-3, double(k) / kSteps));
+    return means;
+  }();
+  const double at = std::clamp(open, 0.0, 1.0) * kSteps;
+  const auto k = static_cast<std::size_t>(std::min<double>(at, kSteps - 1));
+  const auto& means = table[static_cast<std::size_t>(style)];
+  return mixed_texels(means[k], means[k + 1], at - static_cast<double>(k));
+}
+
+/// One style at one octave of the girth: a lattice with its own number of columns and its own metres per row.
+template <BarkNumber N>
+BarkTexel<N> at_octave(BarkStyle style, const BarkPatternKind& kind, double octave, const N& u, const N& v, double footprint,
+                       double open) {
+  const Growth growth = growth_of(style);
+  const double radius = std::exp2(octave + 0.5), girth = 2 * std::numbers::pi * radius;
+  const double wanted = growth.width * kind.scale * std::pow(radius / kUsualRadius, growth.power);
+  const double columns = std::clamp(std::round(girth / wanted), 4.0, 4096.0), width = girth / columns;
+  const double near = 1 - smooth(0.25, 1.0, footprint / width);
+  const BarkTexel<double> mean = mean_texel(style, open);
+  const BarkTexel<N> far{N(mean.relief * width), mean.height, mean.outer, mean.inner, mean.warm, mean.roughness, 0};
+  if (!(near > 0)) return far;
+  const BarkLattice<N> at{u * columns, v * (1 / (width * growth.elongation)), width, growth.elongation, static_cast<std::uint32_t>(columns),
+                          static_cast<std::uint32_t>(hash_of(kind.seed, static_cast<std::uint64_t>(octave + 1024), static_cast<std::uint64_t>(style))),
+                          footprint};
+  const BarkTexel<N> texel = styled(style, at, open);
+  return near < 1 ? mixed_texels(far, texel, near) : texel;
 }
 
 // A pattern's height in metres must follow the girth, but v / radius would shear the pattern wherever a branch tapers. So it is
 // drawn for the two neighbouring powers of two of the radius, each with its own fixed metres per plate, and faded over.
-BarkTexel bark_pattern(BarkStyle style, double scale, double u, double v, double radius, std::uint64_t seed, double footprint) {
-  if (!(radius > 0) || !std::isfinite(u) || !std::isfinite(v)) return {};
-  const double level = std::log2(std::clamp(radius, 1e-6, 1e6));
-  const double whole = std::floor(level), weight = smooth(0.3, 0.7, level - whole);
-  scale = std::clamp(scale, 0.05, 50.0);
-  const auto at = [&](double k) {
-    const auto level_seed = hash_of(seed, static_cast<std::uint64_t>(k + 1024));
-    return pattern_at(style, scale, u, std::clamp(v, -1e9, 1e9), std::exp2(k + 0.5), level_seed, footprint);
-  };
-  if (weight <= 0) return at(whole);
-  if (weight >= 1) return at(whole + 1);
-  const BarkTexel a = at(whole), b = at(whole + 1);
-  return {lerp(a.height, b.height, weight), lerp(a.shade, b.shade, weight), lerp(a.mark, b.mark, weight)};
+template <BarkNumber N>
+BarkTexel<N> over_octaves(BarkStyle style, const BarkPatternKind& kind, const N& u, const N& v, double radius, double footprint,
+                          double open) {
+  const double level = std::log2(radius), whole = std::floor(level), weight = smooth(0.35, 0.65, level - whole);
+  if (weight <= 0) return at_octave(style, kind, whole, u, v, footprint, open);
+  if (weight >= 1) return at_octave(style, kind, whole + 1, u, v, footprint, open);
+  return mixed_texels(at_octave(style, kind, whole, u, v, footprint, open), at_octave(style, kind, whole + 1, u, v, footprint, open),
+                      weight);
 }
 
-double bark_depth(BarkStyle style) {
-  switch (style) {
-    case BarkStyle::kRidged: return 0.075;
-    case BarkStyle::kPlated: return 0.05;
-    case BarkStyle::kSmooth: return 0.012;
-    case BarkStyle::kBirch: return 0.015;
-  }
-  return 0;
+template <BarkNumber N>
+BarkTexel<N> young_skin(const BarkPatternKind& kind, const N& u, const N& v, double radius, double footprint) {
+  BarkTexel<N> texel = over_octaves(BarkStyle::kSmooth, kind, u, v, radius, footprint, 1);
+  texel.young = 1;
+  return texel;
 }
+
+}  // namespace
+
+template <BarkNumber N>
+BarkTexel<N> bark_pattern(const BarkPatternKind& kind, const N& u, const N& v, double radius, double footprint) {
+  if (!(radius > 0) || !std::isfinite(value_of(u)) || !std::isfinite(value_of(v))) return {};
+  BarkPatternKind bounded = kind;
+  bounded.scale = std::clamp(kind.scale, 0.05, 50.0);
+  const double girth = std::clamp(radius, 1e-6, 1e6);
+  const N around = clamped(u, -1e6, 1e6), along = clamped(v, -1e8, 1e8);
+  if (kind.style == BarkStyle::kSmooth || !(kind.mature_radius > 0))
+    return over_octaves(kind.style, bounded, around, along, girth, footprint, 1);
+  // The same stem is smooth at its top and fissured at its base; cracks open as it thickens.
+  const double age = smooth(0.33, 1.0, girth / kind.mature_radius);
+  if (age <= 0) return young_skin(bounded, around, along, girth, footprint);
+  const BarkTexel<N> old = over_octaves(kind.style, bounded, around, along, girth, footprint, 0.25 + 0.75 * age);
+  if (age >= 1) return old;
+  return mixed_texels(young_skin(bounded, around, along, girth, footprint), old, age);
+}
+
+template BarkTexel<double> bark_pattern(const BarkPatternKind&, const double&, const double&, double, double);
+template BarkTexel<Sloped> bark_pattern(const BarkPatternKind&, const Sloped&, const Sloped&, double, double);
 
 }  // namespace cambium

@@ -1,27 +1,42 @@
 // Procedural bark over a branch's own coordinates: periodic around the girth, so u = 0 shows no seam.
 #pragma once
 
-#include "raytrace/bark.h"
+#include "raytrace/bark_noise.h"
+#include "raytrace/bark_number.h"
 
 #include <cstdint>
 
 namespace cambium {
 
-/// What a pattern gives at one point.
+/// Furrows between braided ridges (poplar, oak, ash); plates of thin scales (pine); grey skin with pores (beech, anything young);
+/// white with dark bands (birch).
+enum class BarkStyle { kRidged, kPlated, kSmooth, kBirch };
+
+/// What a pattern gives at one point. A bark's colour there is outer * (its colour, warmed) + inner * (its crack's colour), so the
+/// mean colour of a patch is that of the mean texel.
+template <BarkNumber N>
 struct BarkTexel {
-  double height = 1;   ///< 1 on an outer plate, 0 in a crack
-  double shade = 1;    ///< factor on the plate's colour, around 1
-  double mark = 0;     ///< [0, 1] how much of a lenticel or a dark band covers the point
+  N relief{0.0};           ///< metres, 0 on an outer plate and negative in a crack
+  double height = 1;       ///< 1 on an outer plate, 0 in a crack
+  double outer = 1, inner = 0;
+  double warm = 0;         ///< around 0: how much the outer colour turns to red
+  double roughness = 0.85;
+  double young = 0;        ///< how much of it is still the smooth skin of a thin stem
+};
+
+struct BarkPatternKind {
+  BarkStyle style = BarkStyle::kRidged;
+  double scale = 1;            ///< of the pattern, 1 = as grown on such a radius
+  double mature_radius = 0;    ///< metres: from here on it is `style`; below a third of it the skin is still smooth
+  std::uint64_t seed = 0;
 };
 
 /// u in turns, v in metres along the branch, radius in metres, footprint: metres on the surface that one pixel covers; detail
 /// smaller than that fades to its mean. Continuous in u (period 1), v and radius. Deterministic in (seed, place).
-BarkTexel bark_pattern(BarkStyle style, double scale, double u, double v, double radius, std::uint64_t seed, double footprint);
+template <BarkNumber N>
+BarkTexel<N> bark_pattern(const BarkPatternKind& kind, const N& u, const N& v, double radius, double footprint);
 
-/// How deep the style's cracks are, as a fraction of the radius.
-double bark_depth(BarkStyle style);
-
-/// Periodic value noise in [0, 1]: x has the integer period `period`, y is free.
-double bark_noise(double x, double y, std::uint32_t period, std::uint64_t seed);
+extern template BarkTexel<double> bark_pattern(const BarkPatternKind&, const double&, const double&, double, double);
+extern template BarkTexel<Sloped> bark_pattern(const BarkPatternKind&, const Sloped&, const Sloped&, double, double);
 
 }  // namespace cambium

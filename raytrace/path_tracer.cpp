@@ -1,6 +1,6 @@
 #include "raytrace/path_tracer.h"
 
-#include "raytrace/bark_pattern.h"
+#include "raytrace/bark_noise.h"
 
 #include <algorithm>
 #include <cmath>

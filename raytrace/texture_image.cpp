@@ -9,21 +9,38 @@
 namespace cambium {
 namespace {
 
+/// Nothing steeper can be told from a normal of 8 bits.
+constexpr float kLeastZ = 0.1f;
+
+glm::vec3 slopes(const glm::vec3& texel, float up) {
+  const glm::vec3 n = 2.0f * texel - 1.0f;
+  const float z = std::max(n.z, kLeastZ);
+  return {-n.x / z, -up * n.y / z, 0.0f};
+}
+
+glm::vec3 decoded(const float* texel, const Pixels& pixels, TextureUse use) {
+  glm::vec3 value = pixels.channels >= 3 ? glm::vec3(texel[0], texel[1], texel[2]) : glm::vec3(texel[0]);
+  switch (use) {
+    case TextureUse::kNormalOpenGl: return slopes(value, 1);
+    case TextureUse::kNormalDirectX: return slopes(value, -1);
+    case TextureUse::kRoughness: return glm::vec3(value.y);
+    case TextureUse::kColor: break;
+  }
+  if (pixels.srgb) {
+    for (int c = 0; c < 3; ++c) value[c] = static_cast<float>(linear_from_srgb(value[c]));
+  }
+  return value;
+}
+
 int wrap(int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; }
 
 }  // namespace
 
-TextureImage::TextureImage(const Pixels& pixels) : aspect_(double(pixels.width) / pixels.height) {
+TextureImage::TextureImage(const Pixels& pixels, TextureUse use) : aspect_(double(pixels.width) / pixels.height) {
   Level base{pixels.width, pixels.height, {}};
   base.texels.reserve(std::size_t(base.width) * base.height);
-  for (std::size_t i = 0; i < std::size_t(base.width) * base.height; ++i) {
-    const float* texel = &pixels.data[i * pixels.channels];
-    glm::vec3 color = pixels.channels >= 3 ? glm::vec3(texel[0], texel[1], texel[2]) : glm::vec3(texel[0]);
-    if (pixels.srgb) {
-      for (int c = 0; c < 3; ++c) color[c] = static_cast<float>(linear_from_srgb(color[c]));
-    }
-    base.texels.push_back(color);
-  }
+  for (std::size_t i = 0; i < std::size_t(base.width) * base.height; ++i)
+    base.texels.push_back(decoded(&pixels.data[i * pixels.channels], pixels, use));
   levels_.push_back(std::move(base));
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& fine = levels_.back();

@@ -1,4 +1,4 @@
-// A bark photograph as a repeating texture, filtered by a pyramid of halved images.
+// An image of bark, or of its normals or roughness, as a repeating texture filtered by a pyramid of halved images.
 #pragma once
 
 #include "blobtree/geometry.h"
@@ -8,13 +8,22 @@
 
 namespace cambium {
 
+/// What an image's numbers stand for.
+enum class TextureUse {
+  kColor,          ///< sRGB where its file says so
+  kNormalOpenGl,   ///< x to the right, y up in the image, z out of it, each from [-1, 1] to [0, 1]
+  kNormalDirectX,  ///< the same with y down
+  kRoughness,      ///< the green channel, as glTF has it, or the only one
+};
+
 class TextureImage {
  public:
-  explicit TextureImage(const Pixels& pixels);
+  explicit TextureImage(const Pixels& pixels, TextureUse use = TextureUse::kColor);
 
   double aspect() const { return aspect_; }   ///< width / height in pixels
 
-  /// Linear colour at (s, t) in repeats (period 1 in both, t upwards), averaged over about `footprint` repeats of t.
+  /// At (s, t) in repeats (period 1 in both, t upwards), averaged over about `footprint` repeats of t: a linear colour; of normals
+  /// the slopes (rise per way to the right, rise per way up, 0), which average as normals do not; of roughness thrice that.
   Vec3 lookup(double s, double t, double footprint) const;
 
  private:

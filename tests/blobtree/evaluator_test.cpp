@@ -119,6 +119,28 @@ TEST(Contributions, MetresRunEvenlyRoundABendAndOverTheTips) {
   }
 }
 
+TEST(Contributions, HaveGradientsThatDifferencesConfirm) {
+  BlobTreeBuilder b;
+  const NodeId straight = b.add(Chain{{{{0, 0, -1}, 0.2}, {{0, 0, 1.5}, 0.15}, {{0, 0, 4}, 0.1}}}), ball = b.add(Sphere{{0.3, 0.1, 0.6}, 0.2, 0.7});
+  const NodeId bent = b.add(Bend{kO, 2.0 * kZ, kX, 0.5, b.add(RoundCone{{0.4, 0.2, 0.2}, {0.4, 0.2, 1.4}, 0.15, 0.12})});
+  const Field field(b.build(b.add(Sum{{straight, ball, bent}})));
+  for (const Vec3& p : {Vec3(0.18, 0.05, 0.7), Vec3(0.22, 0.15, 0.9), Vec3(-0.1, 0.12, 0.4)}) {
+    const auto here = contributions(field, p);
+    ASSERT_GE(here.size(), 2u);
+    for (const Vec3& direction : {kX, Vec3(0, 1, 0), kZ}) {
+      const double step = 1e-6;
+      const auto ahead = contributions(field, p + step * direction), behind = contributions(field, p - step * direction);
+      ASSERT_EQ(ahead.size(), here.size());
+      ASSERT_EQ(behind.size(), here.size());
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        EXPECT_NEAR(glm::dot(here[i].weight_gradient, direction), (ahead[i].weight - behind[i].weight) / (2 * step), 1e-5);
+        EXPECT_NEAR(glm::dot(here[i].u_gradient, direction), std::remainder(ahead[i].u - behind[i].u, 1.0) / (2 * step), 1e-5);
+        EXPECT_NEAR(glm::dot(here[i].v_gradient, direction), (ahead[i].v - behind[i].v) / (2 * step), 1e-5);
+      }
+    }
+  }
+}
+
 TEST(Contributions, NameTheirPrimitiveTheSameEverywhere) {
   BlobTreeBuilder b;
   const NodeId left = b.add(Chain{{{kO, 0.1}, {kX, 0.1}, {2.0 * kX, 0.1}}}), right = b.add(Sphere{{2.1, 0, 0}, 0.1, 1});
