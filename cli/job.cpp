@@ -140,12 +140,17 @@ std::optional<Field> build_field(Job& job) {
 }
 
 std::vector<BarkMaterial> load_bark(const Recipe& recipe) {
+  const auto load = [](const std::optional<BarkImage>& image, TextureUse use) -> std::shared_ptr<const TextureImage> {
+    if (!image) return nullptr;
+    require_readable(image->file, &image->named_at);
+    return load_texture(image->file, use);
+  };
   std::vector<BarkMaterial> materials;
   for (const BarkRecipe& bark : recipe.bark) {
-    materials.push_back(bark.material);
-    if (!bark.texture) continue;
-    require_readable(*bark.texture, &bark.texture_named_at);
-    materials.back().texture = load_texture(*bark.texture);
+    BarkMaterial& material = materials.emplace_back(bark.material);
+    material.texture = load(bark.texture, TextureUse::kColor);
+    material.normal_map = load(bark.normal_map, bark.normal_convention);
+    material.roughness_map = load(bark.roughness_map, TextureUse::kRoughness);
   }
   return materials;
 }

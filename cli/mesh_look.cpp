@@ -19,31 +19,54 @@ std::uint8_t srgb_byte(double linear) {
   return static_cast<std::uint8_t>(std::lround(255 * srgb));
 }
 
+/// Images as a .glb takes them along, each read once: orders often share one.
+class ImageFiles {
+ public:
+  explicit ImageFiles(std::vector<std::string>& warnings) : warnings_(warnings) {}
+
+  /// Null, with a warning that ends in `otherwise`, where the file is no PNG or JPEG.
+  std::shared_ptr<const std::string> read(const std::filesystem::path& path, const std::string& otherwise) {
+    const auto known = std::find_if(read_.begin(), read_.end(), [&](const auto& entry) { return entry.first == path; });
+    if (known != read_.end()) return known->second;
+    auto bytes = std::make_shared<const std::string>(read_text(path));
+    if (image_type(*bytes).empty()) {
+      warnings_.push_back(path.string() + " is neither PNG nor JPEG, as a .glb's textures are: " + otherwise);
+      bytes = nullptr;
+    }
+    return read_.emplace_back(path, std::move(bytes)).second;
+  }
+
+ private:
+  std::vector<std::pair<std::filesystem::path, std::shared_ptr<const std::string>>> read_;
+  std::vector<std::string>& warnings_;
+};
+
 }  // namespace
 
 MeshLook mesh_look(const Recipe& recipe, bool takes_textures) {
   std::vector<BarkMaterial> barks = load_bark(recipe);
   if (barks.empty()) barks = poplar_bark();
   std::vector<MeshMaterial> materials(barks.size());
-  std::vector<std::pair<std::filesystem::path, std::shared_ptr<const std::string>>> read;   // orders often share one
-  double aspect = 1;
   std::vector<std::string> warnings;
+  ImageFiles files(warnings);
+  const auto white = std::make_shared<const TextureImage>(Pixels{1, 1, 3, {1, 1, 1}, false});
+  double aspect = 1;
   bool first = true;
   for (std::size_t order = 0; order < barks.size(); ++order) {
     materials[order].name = "bark of order " + std::to_string(order);
     if (!takes_textures || !barks[order].texture) continue;
-    const std::filesystem::path& path = *recipe.bark[order].texture;
-    auto known = std::find_if(read.begin(), read.end(), [&](const auto& entry) { return entry.first == path; });
-    if (known == read.end()) {
-      known = read.insert(read.end(), {path, std::make_shared<const std::string>(read_text(path))});
-      if (image_type(*known->second).empty())
-        warnings.push_back(path.string() + " is neither PNG nor JPEG, as a .glb's textures are: the vertices have its colours");
-    }
-    if (image_type(*known->second).empty()) continue;
+    const BarkRecipe& bark = recipe.bark[order];
+    materials[order].texture = files.read(bark.texture->file, "the vertices have its colours");
+    if (!materials[order].texture) continue;
     if (std::exchange(first, false)) aspect = barks[order].texture->aspect();
-    materials[order].texture = known->second;
-    barks[order].texture = nullptr;
-    barks[order].color = barks[order].crack_color = Vec3(1.0);
+    if (bark.normal_map && bark.normal_convention == TextureUse::kNormalOpenGl) {
+      materials[order].normal_map = files.read(bark.normal_map->file, "it is left out");
+    } else if (bark.normal_map) {
+      warnings.push_back(bark.normal_map->file.string() + " has y downwards and a .glb's normals have it upwards: it is left out");
+    }
+    if (bark.roughness_map) materials[order].roughness_map = files.read(bark.roughness_map->file, "it is left out");
+    if (materials[order].roughness_map) materials[order].roughness = 1;
+    barks[order].texture = white;
   }
   return {std::move(materials), Bark(std::move(barks), recipe.render.seed), aspect, std::move(warnings)};
 }

@@ -137,9 +137,25 @@ const KeyRule<BarkRecipe> kMaterialKeys[] = {
     {"color", [](const RecipeValue& v, BarkRecipe& b) { b.material.color = v.color(); }},
     {"crack_color", [](const RecipeValue& v, BarkRecipe& b) { b.material.crack_color = v.color(); }},
     {"scale", [](const RecipeValue& v, BarkRecipe& b) { b.material.scale = v.positive(); }},
-    {"texture", [](const RecipeValue& v, BarkRecipe& b) { b.texture = v.file(), b.texture_named_at = v.location(); }},
+    {"young_color", [](const RecipeValue& v, BarkRecipe& b) { b.material.young_color = v.color(); }},
+    {"mature_radius", [](const RecipeValue& v, BarkRecipe& b) { b.material.mature_radius = v.not_negative_length(); }},
+    {"texture", [](const RecipeValue& v, BarkRecipe& b) { b.texture = {v.file(), v.location()}; }},
+    {"normal_map", [](const RecipeValue& v, BarkRecipe& b) { b.normal_map = {v.file(), v.location()}; }},
+    {"normal_convention",
+     [](const RecipeValue& v, BarkRecipe& b) {
+       constexpr TextureUse kConventions[] = {TextureUse::kNormalOpenGl, TextureUse::kNormalDirectX};
+       b.normal_convention = kConventions[v.choice({"opengl", "directx"})];
+     }},
+    {"roughness_map", [](const RecipeValue& v, BarkRecipe& b) { b.roughness_map = {v.file(), v.location()}; }},
     {"texture_size", [](const RecipeValue& v, BarkRecipe& b) { b.material.texture_size = v.positive_length(); }},
 };
+
+/// Maps belong to a texture: by themselves nothing would say what they cover.
+void require_texture_beside_maps(const BarkRecipe& bark) {
+  if (bark.texture) return;
+  if (bark.normal_map) throw InputError(bark.normal_map->named_at, "a normal map alone", "a texture that it belongs to");
+  if (bark.roughness_map) throw InputError(bark.roughness_map->named_at, "a roughness map alone", "a texture that it belongs to");
+}
 
 /// [bark] is what every order starts from; each [[bark.order]] changes it for one order, 0 being the trunk.
 void read_bark(const RecipeValue& v, Recipe& recipe) {
@@ -153,6 +169,7 @@ void read_bark(const RecipeValue& v, Recipe& recipe) {
     }
   }
   if (recipe.bark.empty()) recipe.bark.push_back(common);
+  for (const BarkRecipe& bark : recipe.bark) require_texture_beside_maps(bark);
 }
 
 // ---- [mesh], [volume] ------------------------------------------------------------------------------------------

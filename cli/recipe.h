@@ -27,11 +27,17 @@ struct SkeletonRecipe {
   TurtleOptions turtle;
 };
 
-/// [bark] and [[bark.order]]: what one branch order is covered with. The image is loaded only by commands that colour.
+struct BarkImage {
+  std::filesystem::path file;
+  SourceLocation named_at;
+};
+
+/// [bark] and [[bark.order]]: what one branch order is covered with. Images are loaded only by commands that colour.
 struct BarkRecipe {
-  BarkMaterial material;
-  std::optional<std::filesystem::path> texture;
-  SourceLocation texture_named_at;
+  BarkMaterial material;                            ///< without its images
+  std::optional<BarkImage> texture;
+  std::optional<BarkImage> normal_map, roughness_map;  ///< only beside a texture
+  TextureUse normal_convention = TextureUse::kNormalOpenGl;
 };
 
 /// A branch that a recipe names by its number.

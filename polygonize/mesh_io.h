@@ -22,6 +22,8 @@ struct MeshMaterial {
   std::array<float, 3> color{1, 1, 1};           ///< linear; multiplies the texture and the vertex colours
   float roughness = 0.9f;
   std::shared_ptr<const std::string> texture;    ///< as image_type has it; null: none. Shared ones are stored once
+  std::shared_ptr<const std::string> normal_map = nullptr;      ///< likewise; y upwards in the image
+  std::shared_ptr<const std::string> roughness_map = nullptr;   ///< likewise; roughness in green, times the number above
 };
 
 /// "image/png" or "image/jpeg", by a file's first bytes; "" for anything else, which no .glb can take along.

@@ -98,26 +98,39 @@ class Document {
   std::vector<std::function<void(ByteSink&)>> fills_;
 };
 
-/// The file's materials, each with its texture; a texture that several share is stored once.
+/// The file's textures; an image that several materials share is stored once.
+class TextureTable {
+ public:
+  explicit TextureTable(Document& document) : document_(document) {}
+
+  Json reference(const std::shared_ptr<const std::string>& bytes) {
+    auto at = std::find(known_.begin(), known_.end(), bytes.get());
+    if (at == known_.end()) {
+      const std::size_t view =
+          document_.add_view(bytes->size(), std::nullopt, [bytes](ByteSink& sink) { sink.raw(bytes->data(), bytes->size()); });
+      const std::size_t image = document_.add("images", {{"bufferView", view}, {"mimeType", image_type(*bytes)}});
+      document_.add("textures", {{"source", image}});
+      at = known_.insert(known_.end(), bytes.get());
+    }
+    return {{"index", at - known_.begin()}};
+  }
+
+ private:
+  Document& document_;
+  std::vector<const std::string*> known_;
+};
+
 void add_materials(const std::vector<MeshMaterial>& materials, Document& document) {
-  std::vector<const std::string*> known;
+  TextureTable textures(document);
   for (const MeshMaterial& material : materials) {
     Json look = {{"metallicFactor", 0}, {"roughnessFactor", material.roughness}};
     if (material.color != std::array<float, 3>{1, 1, 1})
       look["baseColorFactor"] = {material.color[0], material.color[1], material.color[2], 1};
-    if (material.texture) {
-      auto at = std::find(known.begin(), known.end(), material.texture.get());
-      if (at == known.end()) {
-        const auto bytes = material.texture;
-        const std::size_t view = document.add_view(bytes->size(), std::nullopt,
-                                                   [bytes](ByteSink& sink) { sink.raw(bytes->data(), bytes->size()); });
-        const std::size_t image = document.add("images", {{"bufferView", view}, {"mimeType", image_type(*bytes)}});
-        document.add("textures", {{"source", image}});
-        at = known.insert(known.end(), bytes.get());
-      }
-      look["baseColorTexture"] = {{"index", at - known.begin()}};
-    }
-    document.add("materials", {{"name", material.name}, {"pbrMetallicRoughness", std::move(look)}});
+    if (material.texture) look["baseColorTexture"] = textures.reference(material.texture);
+    if (material.roughness_map) look["metallicRoughnessTexture"] = textures.reference(material.roughness_map);
+    Json entry = {{"name", material.name}, {"pbrMetallicRoughness", std::move(look)}};
+    if (material.normal_map) entry["normalTexture"] = textures.reference(material.normal_map);
+    document.add("materials", std::move(entry));
   }
 }
 

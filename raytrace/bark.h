@@ -20,12 +20,12 @@ struct BarkMaterial {
   Vec3 color{0.30, 0.24, 0.18};
   Vec3 crack_color{0.10, 0.08, 0.06};
   double scale = 1;                                ///< of the pattern, 1 = as grown on this radius
-  std::shared_ptr<const TextureImage> texture;
+  std::shared_ptr<const TextureImage> texture = nullptr;
   double texture_size = 0.3;                       ///< metres of v per repeat, of all its maps
-  std::shared_ptr<const TextureImage> normal_map;  ///< tangent space: x to growing u, y to growing v, z outwards
-  std::shared_ptr<const TextureImage> roughness_map;
+  std::shared_ptr<const TextureImage> normal_map = nullptr;  ///< tangent space: x to growing u, y to growing v, z outwards
+  std::shared_ptr<const TextureImage> roughness_map = nullptr;
   double mature_radius = 0.05;                     ///< metres; thinner stems are smooth (BarkPatternKind)
-  std::optional<Vec3> young_color;                 ///< of smooth stems; unset: color
+  std::optional<Vec3> young_color = std::nullopt;  ///< of smooth stems; unset: color
 };
 
 /// Errors: InputError naming the file if it cannot be read as an image.

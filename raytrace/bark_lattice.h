@@ -37,9 +37,16 @@ struct BarkLattice {
     return {composed(at.border.f, at.border.by_x, at.border.by_y, px, py), at.random};
   }
 
-  /// Lens-shaped pores, at most one per cell, with half axes in cells: 1 inside, 0 outside.
-  N pores(const N& px, const N& py, double share, double half_width, double half_height, std::uint32_t layer,
+  /// A detail of this size and mean as far as it is left.
+  N faded(const N& detail, double size, double mean) const { return mean + kept(size) * (detail - mean); }
+
+  /// Lens-shaped pores, at most one per cell of a lattice finer by `across`, with half axes in cells: 1 inside, 0 outside. `size`:
+  /// of the smallest detail, in columns.
+  N pores(const N& px, const N& py, double share, double half_width, double half_height, double size, std::uint32_t layer,
           std::uint32_t across = 1) const {
+    // The area of a pore, of the mean of its random sizes and of its soft edge, times how many cells have one.
+    const double mean = 1.49 * share * half_width * half_height;
+    if (!(kept(size) > 0)) return N(mean);
     const std::int64_t cx = cell_of(value_of(px)), cy = cell_of(value_of(py));
     const auto least = [](double past, double reach) { return past < reach ? -1 : 0; };
     const auto most = [](double past, double reach) { return 1 - past < reach ? 1 : 0; };
@@ -49,13 +56,13 @@ struct BarkLattice {
       for (int dx = least(fx, half_width); dx <= most(fx, half_width); ++dx) {
         CellRandom random(wrapped_column(cx + dx, across * columns), cy + dy, seed + 211 * (layer + 1));
         if (random.next() > share) continue;
-        const double size = 0.45 + 0.55 * random.next();
+        const double scale = 0.45 + 0.55 * random.next();
         const double mx = double(cx + dx) + random.next(), my = double(cy + dy) + random.next();
-        const N ex = (px - mx) * (1 / (half_width * size)), ey = (py - my) * (1 / (half_height * (0.6 + 0.4 * size)));
+        const N ex = (px - mx) * (1 / (half_width * scale)), ey = (py - my) * (1 / (half_height * (0.6 + 0.4 * scale)));
         mark = larger(mark, smooth(1.0, 0.45, ex * ex + ey * ey));
       }
     }
-    return mark;
+    return faded(mark, size, mean);
   }
 
   /// One number per layer of scales.

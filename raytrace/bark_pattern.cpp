@@ -41,7 +41,7 @@ BarkTexel<N> ridged(const BarkLattice<N>& at, double open) {
   // The flat top is broken into small scales, and weathered along the grain.
   const auto scale = at.cells(3.0 * at.x + 1.2 * wander + 3.0 * ragged, 3.5 * at.y + 8.0 * ragged, 0.9, 6, 3, 3.5);
   const double scaly = at.kept(0.3);
-  const N chipped = scaly * smooth(0.15, 0.02, scale.border + 2.0 * ragged);
+  const N chipped = at.faded(smooth(0.15, 0.02, scale.border + 2.0 * ragged), 0.3, 0.22);
   const N grain = at.kept(0.1) * at.noise(11, 16, 7) + at.kept(0.03) * 0.6 * at.noise(31, 50, 8);
   const N top = 0.86 + 0.16 * scaly * (scale.random - 0.5) - 0.16 * chipped + 0.12 * grain;
   BarkTexel<N> out;
@@ -77,7 +77,7 @@ BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
   const N height = body * top;
   out.relief = 0.26 * at.width * open * (height - 1.0);
   out.height = std::clamp(value_of(height), 0.0, 1.0);
-  const double b = value_of(body), cover = smooth(0.08, 0.7, b), edge = sheet * (1 - value_of(step));
+  const double b = value_of(body), cover = smooth(0.08, 0.7, b), edge = 0.11 + sheet * (0.89 - value_of(step));
   const double shade = 1 + 0.30 * layer + 0.25 * (plate.random - 0.5) + 0.26 * value_of(grain) - 0.30 * edge +
                        0.25 * value_of(at.noise(1, 1, 12));
   out.outer = cover * shade;
@@ -90,8 +90,7 @@ BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
 /// Skin with pores, faint wrinkles and blotches.
 template <BarkNumber N>
 BarkTexel<N> smooth_skin(const BarkLattice<N>& at, double) {
-  const double pore_kept = at.kept(0.10);
-  const N pore = pore_kept > 0 ? pore_kept * at.pores(at.x, 1.6 * at.y, 0.6, 0.16, 0.07, 1) : N(0.0);
+  const N pore = at.pores(at.x, 1.6 * at.y, 0.6, 0.16, 0.07, 0.10, 1);
   const N wrinkle = at.kept(0.12) * at.noise(3, 14, 2) + at.kept(0.05) * 0.6 * at.noise(9, 40, 3);
   const N swell = at.noise(1, 0.8, 4);
   const N grain = at.kept(0.04) * at.noise(26, 26, 5);
@@ -115,11 +114,11 @@ BarkTexel<N> smooth_skin(const BarkLattice<N>& at, double) {
 template <BarkNumber N>
 BarkTexel<N> birch(const BarkLattice<N>& at, double) {
   const N ragged = at.kept(0.03) * at.noise(22, 8, 1);
-  const N band = at.kept(0.05) * at.pores(1.0 * at.x, 0.7 * at.y + 0.05 * ragged, 0.40, 0.46, 0.09, 2);
-  const N dash = at.kept(0.03) * at.pores(6.0 * at.x, 1.7 * at.y + 0.05 * ragged, 0.38, 0.42, 0.09, 3, 6);
+  const N band = at.pores(at.x, 0.7 * at.y + 0.05 * ragged, 0.40, 0.46, 0.09, 0.05, 2);
+  const N dash = at.pores(6.0 * at.x, 1.7 * at.y + 0.05 * ragged, 0.38, 0.42, 0.09, 0.03, 3, 6);
   const N sheet = at.noise(1, 0.8, 4) + 0.25 * at.kept(0.08) * at.noise(6, 2, 5) + 0.10 * ragged;
   // A sheet that has come off shows the young, warmer one below, and throws up its rim.
-  const N peeled = at.kept(0.04) * smooth(0.24, 0.27, sheet);
+  const N peeled = at.faded(smooth(0.24, 0.27, sheet), 0.04, 0.08);
   const N rim = peeled * smooth(0.34, 0.25, sheet);
   const N mark = larger(band, 0.75 * dash);
   BarkTexel<N> out;

@@ -54,6 +54,22 @@ TEST(MeshLook, TexturesGoAlongAsTheyAreAndColoursThenOnlyTintThem) {
   EXPECT_LT(plain[0], plain[2]);
 }
 
+TEST(MeshLook, MapsGoAlongUnlessTheirNormalsPointTheOtherWay) {
+  TemporaryFolder folder;
+  for (const char* name : {"bark.png", "normal.png", "rough.png"}) write_image(folder.path(name), ".png", 4, 4);
+  const std::string recipe = "[skeleton]\nfile = \"a.skel.json\"\n[bark]\ntexture = \"bark.png\"\nnormal_map = \"normal.png\"\n"
+                             "roughness_map = \"rough.png\"\n";
+  const MeshLook look = mesh_look(read_recipe(folder.write("a.tree.toml", recipe), {}), true);
+  ASSERT_TRUE(look.materials.at(0).normal_map && look.materials[0].roughness_map);
+  EXPECT_EQ(*look.materials[0].normal_map, folder.read("normal.png"));
+  EXPECT_EQ(look.materials[0].roughness, 1);
+  EXPECT_TRUE(look.warnings.empty());
+  const MeshLook other = mesh_look(read_recipe(folder.write("b.tree.toml", recipe + "normal_convention = \"directx\"\n"), {}), true);
+  EXPECT_FALSE(other.materials.at(0).normal_map);
+  ASSERT_EQ(other.warnings.size(), 1u);
+  EXPECT_NE(other.warnings[0].find("normal.png"), std::string::npos);
+}
+
 TEST(MeshLook, WithoutRoomForTexturesTheirColoursAreInTheVertices) {
   TemporaryFolder folder;
   write_image(folder.path("bark.png"), ".png", 8, 4);

@@ -106,7 +106,7 @@ TEST(Recipe, EveryPartIsRead) {
   EXPECT_EQ(recipe.bark[0].material.color, Vec3(0.1, 0.2, 0.3));
   EXPECT_EQ(recipe.bark[1].material.style, BarkStyle::kSmooth);
   EXPECT_DOUBLE_EQ(recipe.bark[1].material.texture_size, 0.3);
-  EXPECT_EQ(recipe.bark[1].texture->filename(), "bark.png");
+  EXPECT_EQ(recipe.bark[1].texture->file.filename(), "bark.png");
   EXPECT_EQ(recipe.render.width, 20);
   EXPECT_EQ(recipe.render.height, 30);
   EXPECT_EQ(recipe.render.sampling.min, 2);
@@ -180,6 +180,9 @@ TEST(Recipe, MalformedOnesAreRefusedAtTheirPlace) {
       {"[scars]\ncount = 1.5", 2, 9, "the number 1.5"},
       {"[bark]\nstyle = \"furry\"", 2, 9, "the string 'furry'"},
       {"[bark]\ncolor = \"#12345\"", 2, 9, "the string '#12345'"},
+      {"[bark]\nnormal_map = \"n.png\"", 2, 14, "a normal map alone"},
+      {"[bark]\ntexture = \"t.png\"\nnormal_convention = \"blue\"", 3, 21, "the string 'blue'"},
+      {"[bark]\nmature_radius = \"-1cm\"", 2, 17, "-1cm"},
       {"[[bark.order]]\norder = 1", 2, 1, "unknown key 'bark.order.0.order'"},
       {"[render]\nsize = \"0x0\"", 2, 8, "'0x0'"},
       {"[render]\nsize = [0, 10]", 2, 9, "the number 0"},
@@ -242,7 +245,7 @@ TEST(Recipe, SetWorksOnInputsThatAreNoRecipe) {
   ASSERT_EQ(recipe.surface.prunes.size(), 1u);
   EXPECT_EQ(recipe.surface.prunes[0].where.branch, 3u);
   EXPECT_EQ(recipe.surface.profile, Profile::kGalbraith);
-  EXPECT_EQ(recipe.bark[0].texture->string(), "a/t.png");
+  EXPECT_EQ(recipe.bark[0].texture->file.string(), "a/t.png");
   EXPECT_THROW(empty_recipe("a/b.swc", {"skeleton.file=c.swc"}), InputError);
 }
 

@@ -118,6 +118,22 @@ TEST(MeshIoGltf, TangentsAgreeWithTheTextureCoordinates) {
   EXPECT_GT(static_cast<double>(agree), 0.97 * static_cast<double>(count));
 }
 
+TEST(MeshIoGltf, MapsOfNormalsAndRoughnessGoAlong) {
+  const Field field = small_tree();
+  const Mesh mesh = small_tree_mesh(field);
+  const MeshAttributes a = small_tree_attributes(field, mesh);
+  const auto color = std::make_shared<const std::string>(kPng), normals = std::make_shared<const std::string>(kPng);
+  MeshFile file{{{&mesh, &a, 0}}, {}};
+  file.materials = {{"trunk", {1, 1, 1}, 1, color, normals, normals}, {"limbs", {1, 1, 1}, 1, color}};
+  const GlbFile glb(written(file, ".glb"));
+  ASSERT_EQ(glb.model.images.size(), 2u);
+  const auto& trunk = glb.model.materials.at(0);
+  EXPECT_EQ(trunk.pbrMetallicRoughness.baseColorTexture.index, 0);
+  EXPECT_EQ(trunk.pbrMetallicRoughness.metallicRoughnessTexture.index, 1);
+  EXPECT_EQ(trunk.normalTexture.index, 1);
+  EXPECT_EQ(glb.model.materials.at(1).normalTexture.index, -1);
+}
+
 TEST(MeshIoGltf, EveryBarkIsAPrimitiveAndSharedTexturesAreStoredOnce) {
   const Field field = small_tree();
   const Mesh mesh = small_tree_mesh(field);

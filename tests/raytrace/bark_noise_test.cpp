@@ -50,15 +50,17 @@ TEST(BarkCells, KnowTheDistanceToTheirBorder) {
 }
 
 TEST(BarkCells, MeasureAcrossRowsInUnitsOfColumns) {
+  int confirmed = 0;
   for (int i = 0; i < 300; ++i) {
     const double x = 9 * drawn(4, i), y = 50 * drawn(5, i), step = 1e-6;
     const CellAt at = cell_at(x, y, 9, 5, 0.8, 4);
     // The gradient in equal units: d/dx, and d/dy over rows that are 4 columns long.
     EXPECT_NEAR(std::hypot(at.border.by_x, at.border.by_y / 4), 1, 1e-9);
     const double ahead = cell_at(x + step, y, 9, 5, 0.8, 4).border.f, behind = cell_at(x - step, y, 9, 5, 0.8, 4).border.f;
-    if (at.border.f > 1e-3) EXPECT_NEAR((ahead - behind) / (2 * step), at.border.by_x, 2.0);
+    confirmed += std::abs((ahead - behind) / (2 * step) - at.border.by_x) < 1e-6;
     EXPECT_NEAR(at.border.f, cell_at(x + 9, y, 9, 5, 0.8, 4).border.f, 1e-9);
   }
+  EXPECT_GT(confirmed, 290);   // all but where another border becomes the nearest
 }
 
 TEST(BarkNumber, CarriesSlopesThroughArithmeticAndSteps) {

@@ -40,7 +40,7 @@ TEST(Bark, BlendsByFieldValueAcrossAJunction) {
   const NodeId b = scenes::add_chain(builder, {{{0.5, 0, 0}, 0.1}, {{0.12, 0, 0}, 0.1}}, 1, 1);
   const Field field(builder.build(builder.add(Sum{{a, b}})));
   const Vec3 middle = color_at(bark, field, {0, 0, 0.05});
-  EXPECT_NEAR(middle.x, middle.z, 1e-9);
+  EXPECT_NEAR(middle.x / middle.z, 1, 0.03);   // but for how warm either is
   EXPECT_GT(middle.x, 0.1);
   EXPECT_GT(color_at(bark, field, {-0.4, 0, 0.1}).x, 0.3);
   EXPECT_NEAR(color_at(bark, field, {-0.4, 0, 0.1}).z, 0, 1e-12);
@@ -109,13 +109,14 @@ std::vector<Vec3> surface_points(const Field& field, const Vec3& center, double 
 
 // Over a fork too, where two barks blend: the gradient of the blend, not the blend of gradients.
 TEST(Bark, TheShadingNormalIsThatOfTheReliefByDifferences) {
+  int blended = 0;
   for (const Field& field : {scenes::trunk(), scenes::forked()}) {
     const PrunedField pruned = field.prune(field.bounds());
     BarkMaterial ridged{.style = BarkStyle::kRidged, .mature_radius = 0}, plated = ridged;
     plated.style = BarkStyle::kPlated;
     const Bark bark({ridged, plated});
     Evaluator evaluator;
-    int off = 0, blended = 0;
+    int off = 0;
     const auto points = surface_points(field, {0.02, 0, 0.5}, 0.4, 500);
     ASSERT_EQ(points.size(), 500u);
     for (const Vec3& p : points) {
@@ -136,8 +137,8 @@ TEST(Bark, TheShadingNormalIsThatOfTheReliefByDifferences) {
       off += glm::length(bark.look(evaluator, pruned, p, n, 1e-4).normal - glm::normalize(n - gradient)) > 0.03;
     }
     EXPECT_LT(off, 15);   // at the edges of scales, where relief steps
-    if (field.atom_count() > 2) EXPECT_GT(blended, 50);
   }
+  EXPECT_GT(blended, 50);
 }
 
 TEST(Bark, AGlanceIsALookWithoutItsNormal) {
