@@ -46,6 +46,7 @@ RenderOptions render_options(const Job& job) {
   check_crop(options, {line.crop.empty() ? line.input : "--crop"});
   options.bark = load_bark(job.recipe);
   options.aovs = requested_aovs(line);
+  options.light.environment = load_surroundings(job.recipe.render);
   return options;
 }
 

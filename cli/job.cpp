@@ -4,6 +4,7 @@
 
 #include "blobtree/blobtree_json.h"
 #include "cli/read_text.h"
+#include "raytrace/environment.h"
 #include "skeletons/skeleton_io.h"
 
 namespace cambium {
@@ -153,6 +154,16 @@ std::vector<BarkMaterial> load_bark(const Recipe& recipe) {
     material.roughness_map = load(bark.roughness_map, TextureUse::kRoughness);
   }
   return materials;
+}
+
+std::shared_ptr<const Environment> load_surroundings(const RenderRecipe& render) {
+  if (!render.environment) return nullptr;
+  const EnvironmentRecipe& named = *render.environment;
+  try {
+    return load_environment(named.file, named.rotation, named.strength);
+  } catch (const InputError& error) {
+    throw InputError(named.named_at, error.found() + " in '" + named.file.string() + "'", error.expected());
+  }
 }
 
 }  // namespace cambium

@@ -56,5 +56,7 @@ std::optional<Field> build_field(Job& job);
 
 /// The recipe's bark with its images loaded; empty: the built-in.
 std::vector<BarkMaterial> load_bark(const Recipe& recipe);
+/// The image that the recipe names as its surroundings; null if none. Errors: InputError at the place that names it.
+std::shared_ptr<const Environment> load_surroundings(const RenderRecipe& render);
 
 }  // namespace cambium

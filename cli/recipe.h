@@ -46,9 +46,18 @@ struct NamedBranch {
   SourceLocation at;
 };
 
+/// The image that is all around. Loaded only by commands that render.
+struct EnvironmentRecipe {
+  std::filesystem::path file;
+  SourceLocation named_at;
+  double rotation = 0;           ///< radians: where its middle lies
+  double strength = 1;           ///< what its values are multiplied with
+};
+
 /// [render]: the options, and what they say by branches until the tree is there (close_up.h).
 struct RenderRecipe : RenderOptions {
   std::optional<NamedBranch> close_up, focus_branch;
+  std::optional<EnvironmentRecipe> environment;
 };
 
 /// [mesh].

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "cli/recipe_light.h"
 #include "cli/units.h"
 
 namespace cambium {
@@ -59,18 +60,6 @@ const KeyRule<RenderRecipe> kCameraKeys[] = {
     {"margin", [](const RecipeValue& v, RenderRecipe& r) { r.camera.margin = v.number(0.1, 100); }},
     {"frame", read_frame},
     {"close_up", [](const RecipeValue& v, RenderRecipe& r) { r.close_up = named_branch(v); }},
-};
-
-const KeyRule<Light> kLightKeys[] = {
-    {"sun_azimuth", [](const RecipeValue& v, Light& l) { l.sun_azimuth = v.degrees(); }},
-    {"sun_elevation", [](const RecipeValue& v, Light& l) { l.sun_elevation = v.number(-90, 90) * std::numbers::pi / 180; }},
-    {"sun_size", [](const RecipeValue& v, Light& l) { l.sun_size = v.number(0, 90) * std::numbers::pi / 180; }},
-    {"sun_color", [](const RecipeValue& v, Light& l) { l.sun_color = v.color(); }},
-    {"sky_zenith", [](const RecipeValue& v, Light& l) { l.sky_zenith = v.color(); }},
-    {"sky_horizon", [](const RecipeValue& v, Light& l) { l.sky_horizon = v.color(); }},
-    {"ground_color", [](const RecipeValue& v, Light& l) { l.ground_color = v.color(); }},
-    {"ground", [](const RecipeValue& v, Light& l) { l.ground = v.flag(); }},
-    {"ground_height", [](const RecipeValue& v, Light& l) { l.ground_height = v.length(); }},
 };
 
 void read_image_size(const RecipeValue& v, RenderRecipe& r) {
@@ -129,9 +118,12 @@ const KeyRule<RenderRecipe> kRenderKeys[] = {
     {"exposure", read_exposure},
     {"seed",
      [](const RecipeValue& v, RenderRecipe& r) { r.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
-    {"background", [](const RecipeValue& v, RenderRecipe& r) { r.light.sky_zenith = r.light.sky_horizon = v.color(); }},
+    {"bounces", [](const RecipeValue& v, RenderRecipe& r) { r.paths.bounces = static_cast<int>(v.integer(0, 1000)); }},
+    {"clamp", [](const RecipeValue& v, RenderRecipe& r) { r.paths.clamp = v.positive(); }},
+    {"occlusion_distance", [](const RecipeValue& v, RenderRecipe& r) { r.paths.occlusion_distance = v.positive_length(); }},
+    {"background", [](const RecipeValue& v, RenderRecipe& r) { read_backdrop(v, r.light); }},
     {"camera", [](const RecipeValue& v, RenderRecipe& r) { read_table(v, kCameraKeys, r); }},
-    {"light", [](const RecipeValue& v, RenderRecipe& r) { read_table(v, kLightKeys, r.light); }},
+    {"light", read_light},
 };
 
 }  // namespace

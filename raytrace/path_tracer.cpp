@@ -1,6 +1,6 @@
 #include "raytrace/path_tracer.h"
 
-#include "raytrace/bark_noise.h"
+#include "raytrace/tone.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,108 +8,212 @@
 namespace cambium {
 namespace {
 
-// Shadow rays start this far off the surface: far above the root's 1e-6, far below what an eye sees.
+// Rays that leave a surface start this far off it: far above the root's 1e-6, far below what an eye sees.
 constexpr double kOffsetRadii = 3e-4;
+// Where an environment image is that much brighter than its mean, its light makes shadows worth keeping sharp.
+constexpr double kSpotContrast = 30;
+constexpr double kFullHaze = 0.995;
+constexpr int kCatcherRays = 4;      // to the sky, for each sample of a shadow that no smoothing will see
+constexpr int kSureBounces = 3;      // before chance may end a path
+constexpr double kBounceFootprint = 0.3;   // of a bounce's length: what one of its rays stands for on the surface it meets
 
-/// Trampled soil and grass: two octaves of world-space mottling that fade before they alias.
-double mottle(const Vec3& p, double footprint) {
-  double sum = 0, amplitude = 0.10;
-  for (double size : {0.9, 0.23, 0.06}) {
-    const double kept = std::clamp(1.2 - footprint / (0.8 * size), 0.0, 1.0);
-    sum += amplitude * kept * (2 * bark_noise(p.x / size, p.y / size, 1u << 20, 0x5eed) - 1);
-    amplitude *= 0.8;
-  }
-  return 1 + sum;
+/// How much of the light around the bark's relief lets in: a crack's floor sees less of it than the plates at its sides.
+double open_share(const BarkLook& look) { return 0.45 + 0.55 * look.height; }
+
+Vec3 bounded(const Vec3& light, double most) {
+  const double bright = luminance(light);
+  return bright > most ? light * (most / bright) : light;
 }
 
 }  // namespace
 
 PathTracer::PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground,
-                       double pixel_angle)
-    : tracer_(tracer), bark_(bark), lighting_(light), ground_color_(light.ground_color), ground_(ground),
-      pixel_angle_(pixel_angle) {}
+                       double pixel_angle, const PathOptions& options)
+    : tracer_(tracer), bark_(bark), lights_(light), ground_color_(light.ground_color), catcher_(light.catcher),
+      transparent_(light.backdrop == Backdrop::kTransparent), ground_(ground), pixel_angle_(pixel_angle), options_(options) {}
 
-CameraSample PathTracer::sample(Evaluator& evaluator, const Ray& ray, const PixelSampler& sampler, std::uint32_t index) const {
-  const auto hit = tracer_.intersect(evaluator, ray);
-  double to_ground = kInfinity;
-  if (ground_ && ray.direction.z < 0 && ray.origin.z > ground_->height) {
-    to_ground = (ground_->height - ray.origin.z) / ray.direction.z;
-  }
-  if (hit && hit->t <= to_ground) return on_surface(evaluator, ray, *hit, sampler, index);
-  if (to_ground < kInfinity) return on_ground(evaluator, ray, to_ground, sampler, index);
-  CameraSample out;
-  out.direct = lighting_.background(ray.direction);
-  out.rays = 1;
-  return out;
+PathTracer::Met PathTracer::meet(Walk& walk, const Ray& ray) const {
+  ++walk.rays;
+  const double to_ground = ground_ ? cambium::meet(*ground_, ray) : kInfinity;
+  const auto hit = tracer_.intersect(walk.evaluator, ray);
+  if (hit && hit->t <= to_ground) return {hit->t, hit};
+  return {to_ground, std::nullopt};
 }
 
-Vec3 PathTracer::sky_from(Evaluator& evaluator, const Vec3& p, const Vec3& normal, const std::array<double, 2>& sample) const {
-  const Ray ray{p, cosine_direction(normal, sample)};
-  return tracer_.occluded(evaluator, ray) ? lighting_.hidden() : lighting_.sky(ray.direction);
+bool PathTracer::blocked(Walk& walk, const Ray& ray, double distance) const {
+  if (ground_ && cambium::meet(*ground_, ray) < distance) return true;
+  ++walk.rays;
+  return tracer_.occluded(walk.evaluator, ray, distance);
 }
 
-CameraSample PathTracer::on_surface(Evaluator& evaluator, const Ray& ray, const SurfaceHit& hit, const PixelSampler& sampler,
-                                 std::uint32_t index) const {
+/// The tree's surface where it was hit. With `seen`, as the camera sees it, and what it sees is noted there.
+PathTracer::Vertex PathTracer::bark_vertex(Walk& walk, const Ray& ray, const SurfaceHit& hit, double footprint,
+                                           CameraSample* seen) const {
   const PrunedField field = tracer_.cover().field(hit.cell);
   const Vec3 p = glm::clamp(ray.at(hit.t), field.box().lo, field.box().hi);
-  const Sample gradient = evaluator.sample(field, p);
-  const double steepness = glm::length(gradient.gradient);
-  CameraSample out;
-  out.normal = steepness > 0 ? -gradient.gradient / steepness : -ray.direction;
-  out.depth = hit.t;
-  out.position = p;
-  out.rays = 2;
-
-  const double footprint = hit.t * pixel_angle_;
-  const BarkLook look = bark_.look(evaluator, field, p, out.normal, footprint);
-  out.albedo = look.albedo;
-  out.branch = look.branch;
-  out.order = look.order;
-  out.ridge = look.ridge;
-  out.uv = look.uv;
-
-  const double radius = field.smallest_radius() < kInfinity ? field.smallest_radius() : glm::length(field.box().size());
-  const Vec3 start = p + kOffsetRadii * radius * out.normal;
-  // A crack's floor sees less sky than the plates around it.
-  const double open = 0.45 + 0.55 * look.height;
-  out.ambient = open * sky_from(evaluator, start, out.normal, sampler.pair(index, Use::kSky));
-
-  const Vec3 to_sun = lighting_.towards_sun(sampler.pair(index, Use::kSun));
-  const double facing = glm::dot(out.normal, to_sun);
-  // The bumped normal may not light what turns away: fade it in over the terminator.
-  const double cosine = std::max(0.0, glm::dot(look.normal, to_sun)) * std::clamp(facing / 0.12, 0.0, 1.0);
-  if (cosine > 0) {
-    ++out.rays;
-    if (!tracer_.occluded(evaluator, {start, to_sun})) out.direct = out.albedo * lighting_.sun_color() * cosine;
+  const Vec3 gradient = walk.evaluator.sample(field, p).gradient;
+  const double steepness = glm::length(gradient);
+  Vec3 normal = steepness > 0 ? -gradient / steepness : -ray.direction;
+  const bool fine = seen && options_.relief;
+  const BarkLook look = fine ? bark_.look(walk.evaluator, field, p, normal, footprint)
+                             : bark_.glance(walk.evaluator, field, p, footprint);
+  if (seen) {
+    seen->normal = normal;
+    seen->position = p;
+    seen->depth = hit.t;
+    seen->uv = look.uv;
+    seen->branch = look.branch;
+    seen->order = look.order;
+    seen->ridge = look.ridge;
   }
-  return out;
+  // On the very rim, rounding may show the surface from behind.
+  if (glm::dot(normal, ray.direction) > 0) normal = glm::normalize(normal - glm::dot(normal, ray.direction) * ray.direction);
+  const double radius = field.smallest_radius() < kInfinity ? field.smallest_radius() : glm::length(field.box().size());
+  return {p + kOffsetRadii * radius * normal, Bsdf({normal, fine ? look.normal : normal, look.albedo, look.roughness}, -ray.direction),
+          options_.relief ? open_share(look) : 1};
 }
 
-CameraSample PathTracer::on_ground(Evaluator& evaluator, const Ray& ray, double t, const PixelSampler& sampler,
-                                std::uint32_t index) const {
-  CameraSample out;
-  const Vec3 p{ray.at(t).x, ray.at(t).y, ground_->height};
-  out.rays = 1;
-  out.depth = t;
-  out.position = p;
+PathTracer::Vertex PathTracer::ground_vertex(const Ray& ray, double t, double footprint) const {
+  const Vec3 p{ray.at(t).x, ray.at(t).y, ground_->height}, up{0, 0, 1};
+  return {p, Bsdf({up, up, ground_color_ * mottle(p, footprint), 1, false}, -ray.direction)};
+}
+
+/// One shadow ray to each light that has a place: sun, lamps, and an environment by its brightness.
+PathTracer::Lit PathTracer::light_samples(Walk& walk, const Vertex& vertex, int depth) const {
+  Lit lit;
+  const auto add = [&](const LightSample& light, bool met_by_rays, Vec3 Parts::*part) {
+    if (!(light.pdf > 0)) return;
+    const Vec3 value = vertex.bsdf.value(light.direction);
+    if (value == Vec3(0.0)) return;
+    const double weight = met_by_rays ? mis_weight(light.pdf, vertex.bsdf.pdf(light.direction)) : 1;
+    Parts& parts = blocked(walk, {vertex.start, light.direction}, light.distance) ? lit.missing : lit.reaching;
+    parts.*part += weight / light.pdf * value * light.radiance;
+  };
+  if (lights_.sunlit()) add(lights_.sun(walk.pair(Use::kSun, depth)), false, &Parts::sharp);
+  for (std::size_t i = 0; i < lights_.lamps().size(); ++i) {
+    add(lights_.lamps()[i].sample(vertex.start, walk.pair(Use::kLamp, depth, i)), true, &Parts::sharp);
+  }
+  if (const Environment* around = lights_.environment()) {
+    const LightSample light = around->sample(walk.pair(Use::kAround, depth));
+    const bool spot = luminance(light.radiance) > kSpotContrast * around->mean_luminance();
+    add(light, true, spot ? &Parts::sharp : &Parts::soft);
+  }
+  return lit;
+}
+
+/// What a ray drawn with that pdf brings from lamps before t and, where t is infinite, from all around: the share that light
+/// samples leave to it.
+Vec3 PathTracer::emitted(const Ray& ray, double pdf, double t) const {
+  Vec3 light(0.0);
+  for (const Lamp& lamp : lights_.lamps()) {
+    const auto met = lamp.met(ray);
+    if (met && met->distance < t) light += mis_weight(pdf, met->pdf) * met->radiance;
+  }
+  if (t < kInfinity) return light;
+  const Environment* around = lights_.environment();
+  return light + (around ? mis_weight(pdf, around->pdf(ray.direction)) : 1) * lights_.around(ray.direction);
+}
+
+/// Light that comes to the vertex by rays of its own: from the sky, and from other surfaces by up to options.bounces of them.
+Vec3 PathTracer::bounced(Walk& walk, Vertex vertex, double footprint, double& occlusion) const {
+  Vec3 light(0.0), weight(1.0);
+  for (int depth = 0;; ++depth) {
+    const BsdfSample onward = vertex.bsdf.sample(walk.pair(Use::kOnward, depth));
+    if (!(onward.pdf > 0)) break;
+    const Ray ray{vertex.start, onward.direction};
+    const bool last = depth == options_.bounces;
+    // Only the first needs to know how far it got; of the last, that it was stopped is enough.
+    const bool brief = last && depth > 0 && lights_.lamps().empty();
+    const Met met = brief ? Met{blocked(walk, ray, kInfinity) ? 0.0 : kInfinity, {}} : meet(walk, ray);
+    if (depth == 0 && met.t < options_.occlusion_distance) occlusion = onward.cosine_share;
+    weight *= onward.weight * vertex.open;
+    light += weight * emitted(ray, onward.pdf, met.t);
+    if (last || !(met.t < kInfinity)) break;
+    footprint = std::max(footprint, kBounceFootprint * met.t);
+    vertex = met.tree ? bark_vertex(walk, ray, *met.tree, footprint, nullptr) : ground_vertex(ray, met.t, footprint);
+    light += weight * light_samples(walk, vertex, depth + 1).reaching.all();
+    if (depth < kSureBounces) continue;
+    const double survival = std::min(0.95, std::max({weight.x, weight.y, weight.z}));
+    if (!(walk.pair(Use::kRoulette, depth)[0] < survival)) break;
+    weight /= survival;
+  }
+  return bounded(light, options_.clamp);
+}
+
+void PathTracer::shade(Walk& walk, const Vertex& vertex, double footprint, CameraSample& out) const {
+  const Parts lit = light_samples(walk, vertex, 0).reaching;
+  out.albedo = vertex.bsdf.reflectance();
+  out.direct += lit.sharp;
+  const Vec3 soft = bounded(vertex.open * lit.soft, options_.clamp) + bounced(walk, vertex, footprint, out.occlusion);
+  for (int c = 0; c < 3; ++c) {
+    if (out.albedo[c] > 0) out.ambient[c] = soft[c] / out.albedo[c];
+  }
+}
+
+void PathTracer::see_tree(Walk& walk, const Ray& ray, const SurfaceHit& hit, CameraSample& out) const {
+  const double footprint = hit.t * pixel_angle_;
+  shade(walk, bark_vertex(walk, ray, hit, footprint, &out), footprint, out);
+}
+
+void PathTracer::see_ground(Walk& walk, const Ray& ray, double t, CameraSample& out) const {
+  const double gone = haze(*ground_, t), footprint = t * pixel_angle_ / std::max(0.02, -ray.direction.z);
+  const Vertex vertex = ground_vertex(ray, t, footprint);
+  out.position = vertex.start;
   out.normal = {0, 0, 1};
-  const double haze = 1 - std::exp(-std::pow(t / ground_->fade, 1.5));
-  const double footprint = t * pixel_angle_ / std::max(0.02, -ray.direction.z);
-  out.albedo = ground_color_ * mottle(p, footprint);
-  Vec3 level = ray.direction;
-  level.z = 0;
-  out.direct = haze * lighting_.background(glm::normalize(level + Vec3(0, 0, 1e-6)));
-  if (haze > 0.995) {
-    out.ambient = Vec3(0.0);
-    return out;
+  out.depth = t;
+  if (gone < kFullHaze) shade(walk, vertex, footprint, out);
+  const Vec3 horizon = lights_.backdrop(glm::normalize(Vec3(ray.direction.x, ray.direction.y, 1e-9)));
+  out.direct = (1 - gone) * out.direct + gone * horizon;
+  out.ambient *= 1 - gone;
+  out.alpha = transparent_ ? 1 - gone : 1;
+}
+
+/// The backdrop, darkened by the share of light that the tree takes from the ground there.
+void PathTracer::see_catcher(Walk& walk, const Ray& ray, double t, CameraSample& out) const {
+  const Vec3 p{ray.at(t).x, ray.at(t).y, ground_->height}, up{0, 0, 1};
+  const Vertex white{p, Bsdf({up, up, Vec3(1.0), 1, false}, -ray.direction)};
+  const Lit lit = light_samples(walk, white, 0);
+  Vec3 sharp = lit.missing.sharp, soft = lit.missing.soft;
+  for (int i = 0; i < kCatcherRays; ++i) {
+    const BsdfSample up_to = white.bsdf.sample(walk.sampler.pair(kCatcherRays * walk.index + i, Use::kOnward));
+    const Ray sky{p, up_to.direction};
+    if (!(up_to.pdf > 0) || !blocked(walk, sky, kInfinity)) continue;
+    soft += up_to.weight * emitted(sky, up_to.pdf, kInfinity) / double(kCatcherRays);
   }
-  out.ambient = (1 - haze) * sky_from(evaluator, p, out.normal, sampler.pair(index, Use::kSky));
-  const Vec3 to_sun = lighting_.towards_sun(sampler.pair(index, Use::kSun));
-  out.rays = 2;
-  if (to_sun.z > 0) {
-    ++out.rays;
-    if (!tracer_.occluded(evaluator, {p, to_sun})) out.direct += (1 - haze) * out.albedo * lighting_.sun_color() * to_sun.z;
+  double lamps = 0;   // what they give or would give here
+  if (!lights_.lamps().empty()) lamps = luminance(lit.reaching.sharp + lit.missing.sharp);
+  const double whole = std::max(1e-12, luminance(lights_.on_level_ground()) + lamps);
+  const double by_sun = luminance(lights_.sun_on_level_ground()) / whole;
+  const double sharp_left = by_sun - luminance(sharp) / whole, soft_left = 1 - by_sun - luminance(soft) / whole;
+  if (transparent_) {
+    out.alpha = 1 - sharp_left - soft_left;
+    return;
   }
+  out.albedo = lights_.backdrop(ray.direction);
+  out.direct = sharp_left * out.albedo;
+  out.ambient = Vec3(soft_left);
+  out.position = p;
+  out.normal = up;
+  out.depth = t;
+}
+
+CameraSample PathTracer::sample(Evaluator& evaluator, const Ray& ray, const PixelSampler& sampler, std::uint32_t index) const {
+  Walk walk{evaluator, sampler, index};
+  CameraSample out;
+  const Met met = meet(walk, ray);
+  if (met.tree) {
+    see_tree(walk, ray, *met.tree, out);
+  } else if (met.t < kInfinity) {
+    catcher_ ? see_catcher(walk, ray, met.t, out) : see_ground(walk, ray, met.t, out);
+  } else {
+    out.direct = lights_.backdrop(ray.direction) + lights_.sun_disc(ray.direction);
+    out.alpha = transparent_ ? 0 : 1;
+  }
+  for (const Lamp& lamp : lights_.lamps()) {
+    const auto seen = lamp.visible() ? lamp.met(ray) : std::nullopt;
+    if (seen && seen->distance < met.t) out.direct += seen->radiance;
+  }
+  out.rays = walk.rays;
   return out;
 }
 

@@ -1,38 +1,83 @@
-// Light along one camera ray: surface, ground or sky.
+// Light along one camera ray: what it meets, and the light that falls there from sun, sky, lamps and other surfaces.
 #pragma once
 
 #include "raytrace/bark.h"
+#include "raytrace/bsdf.h"
 #include "raytrace/camera_sample.h"
-#include "raytrace/lighting.h"
+#include "raytrace/ground.h"
+#include "raytrace/lights.h"
+#include "raytrace/path_options.h"
 #include "raytrace/sampler.h"
 #include "raytrace/tracer.h"
 
 namespace cambium {
 
-struct Ground {
-  double height = 0;
-  double fade = 1;         ///< metres from the camera over which it goes into the horizon
-};
-
+/// Path tracing with light samples and multiple importance sampling (Veach 1997). What a ray brings is kept in two parts:
+/// `direct`, sharp and nearly without noise: sun, lamps, what the camera sees of the sky, and what an environment image has of
+/// small bright spots; and `ambient`, noisy and even: sky and bounces, over the surface's reflectance. Both are unbiased.
+/// Thread safe; each thread brings its own Evaluator. A pure function of its arguments.
 class PathTracer {
  public:
-  PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground, double pixel_angle);
+  /// The arguments before `ground` must outlive it. pixel_angle: radians.
+  PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground, double pixel_angle,
+             const PathOptions& options = {});
 
   CameraSample sample(Evaluator& evaluator, const Ray& ray, const PixelSampler& sampler, std::uint32_t index) const;
 
  private:
-  CameraSample on_surface(Evaluator& evaluator, const Ray& ray, const SurfaceHit& hit, const PixelSampler& sampler,
-                          std::uint32_t index) const;
-  CameraSample on_ground(Evaluator& evaluator, const Ray& ray, double t, const PixelSampler& sampler, std::uint32_t index) const;
-  Vec3 sky_from(Evaluator& evaluator, const Vec3& p, const Vec3& normal, const std::array<double, 2>& sample) const;
+  /// What one sample carries along its path.
+  struct Walk {
+    Evaluator& evaluator;
+    const PixelSampler& sampler;
+    std::uint32_t index;
+    int rays = 0;
+
+    std::array<double, 2> pair(Use use, int depth, std::size_t item = 0) const {
+      return sampler.pair(index, use, static_cast<std::uint32_t>(depth), static_cast<std::uint32_t>(item));
+    }
+  };
+  /// A point that light falls on.
+  struct Vertex {
+    Vec3 start;         ///< of rays that leave: just off the surface
+    Bsdf bsdf;
+    double open = 1;    ///< share of the light around that the bark's own relief lets in
+  };
+  struct Met {
+    double t = kInfinity;
+    std::optional<SurfaceHit> tree;   ///< none: the ground, or nothing where t is infinite
+  };
+  /// Light that a vertex sends on.
+  struct Parts {
+    Vec3 sharp{0.0}, soft{0.0};
+    Vec3 all() const { return sharp + soft; }
+  };
+  struct Lit {
+    Parts reaching, missing;   ///< missing: what would reach it if nothing stood in the way
+  };
+
+  Met meet(Walk& walk, const Ray& ray) const;
+  bool blocked(Walk& walk, const Ray& ray, double distance) const;
+
+  Vertex bark_vertex(Walk& walk, const Ray& ray, const SurfaceHit& hit, double footprint, CameraSample* seen) const;
+  Vertex ground_vertex(const Ray& ray, double t, double footprint) const;
+
+  Lit light_samples(Walk& walk, const Vertex& vertex, int depth) const;
+  Vec3 emitted(const Ray& ray, double pdf, double t) const;
+  Vec3 bounced(Walk& walk, Vertex vertex, double footprint, double& occlusion) const;
+  void shade(Walk& walk, const Vertex& vertex, double footprint, CameraSample& out) const;
+
+  void see_tree(Walk& walk, const Ray& ray, const SurfaceHit& hit, CameraSample& out) const;
+  void see_ground(Walk& walk, const Ray& ray, double t, CameraSample& out) const;
+  void see_catcher(Walk& walk, const Ray& ray, double t, CameraSample& out) const;
 
   const Tracer& tracer_;
   const Bark& bark_;
-  Lighting lighting_;
+  Lights lights_;
   Vec3 ground_color_;
+  bool catcher_ = false, transparent_ = false;
   std::optional<Ground> ground_;
   double pixel_angle_ = 0;
-  Vec3 hidden_{0.0};
+  PathOptions options_;
 };
 
 }  // namespace cambium

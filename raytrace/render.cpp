@@ -164,7 +164,7 @@ std::optional<Rendered> Renderer::render(const RenderOptions& options, const Run
     const View view = scene_->view(options, ground);
     if (ground) ground->fade = scene_->fade(view);
     const Bark bark(options.bark, options.seed);
-    const PathTracer path_tracer(scene_->tracer, bark, options.light, ground, view.pixel_angle());
+    const PathTracer path_tracer(scene_->tracer, bark, options.light, ground, view.pixel_angle(), options.paths);
 
     const PixelRect whole{0, 0, options.width, options.height};
     const PixelRect crop = options.crop.value_or(whole);

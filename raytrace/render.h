@@ -7,6 +7,7 @@
 #include "raytrace/camera.h"
 #include "raytrace/film.h"
 #include "raytrace/light.h"
+#include "raytrace/path_options.h"
 #include "raytrace/sampling.h"
 
 #include <functional>
@@ -21,6 +22,7 @@ struct RenderOptions {
   Sampling sampling;
   Camera camera;
   Light light;
+  PathOptions paths;
   std::vector<BarkMaterial> bark;          ///< by branch order, the last one goes on; empty: the built-in
   double exposure = 1;                     ///< what all light is multiplied with
   bool smooth = true;                      ///< the ambient light's noise, between pixels of one surface

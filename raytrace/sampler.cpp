@@ -24,8 +24,9 @@ std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
 
 }  // namespace
 
-std::array<double, 2> PixelSampler::pair(std::uint32_t sample, Use use) const {
-  const std::uint64_t bits = mix_bits(base_ + 0x9e3779b97f4a7c15ull * (static_cast<std::uint32_t>(use) + 1));
+std::array<double, 2> PixelSampler::pair(std::uint32_t sample, Use use, std::uint32_t depth, std::uint32_t item) const {
+  const std::uint64_t purpose = (std::uint64_t(item) << 32) + (depth << 4) + static_cast<std::uint32_t>(use) + 1;
+  const std::uint64_t bits = mix_bits(base_ + 0x9e3779b97f4a7c15ull * purpose);
   // Another order within each sixteen for each use, so that pixel position and light position do not go hand in hand.
   const std::uint32_t index = sample ^ (static_cast<std::uint32_t>(bits) & 15u);
   std::uint32_t second = 0;

@@ -9,7 +9,7 @@
 namespace cambium {
 
 /// What a pair of numbers is for; each use has its own scramble.
-enum class Use : std::uint32_t { kPixel, kSun, kSky, kLens };
+enum class Use : std::uint32_t { kPixel, kLens, kOnward, kRoulette, kSun, kAround, kLamp };
 
 class PixelSampler {
  public:
@@ -17,7 +17,8 @@ class PixelSampler {
       : base_(hash_of(seed, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))) {}
 
   /// The sample-th pair in [0, 1)^2. Any aligned power of two of samples is stratified in both dimensions (a (0,2)-net).
-  std::array<double, 2> pair(std::uint32_t sample, Use use) const;
+  /// depth and item (the how-manieth on a path, of several of a kind) tell apart what one use takes more than once.
+  std::array<double, 2> pair(std::uint32_t sample, Use use, std::uint32_t depth = 0, std::uint32_t item = 0) const;
 
  private:
   std::uint64_t base_;

@@ -116,7 +116,7 @@ TEST(Recipe, EveryPartIsRead) {
   EXPECT_EQ(recipe.render.crop, (PixelRect{1, 2, 11, 12}));
   EXPECT_FALSE(recipe.render.smooth);
   EXPECT_DOUBLE_EQ(recipe.render.exposure, 0.5);
-  EXPECT_EQ(recipe.render.light.sky_zenith, Vec3(1.0));
+  EXPECT_EQ(recipe.render.light.backdrop_color, Vec3(1.0));
   EXPECT_FALSE(recipe.render.light.ground);
   EXPECT_EQ(recipe.render.camera.frame->hi, Vec3(1.0));
   EXPECT_EQ(recipe.render.camera.f_number, 2.8);

@@ -9,7 +9,7 @@ namespace {
 
 TEST(PixelSampler, EverySixteenAreStratifiedInBothDimensionsAndInSquares) {
   for (int pixel = 0; pixel < 20; ++pixel) {
-    for (Use use : {Use::kPixel, Use::kSun, Use::kSky}) {
+    for (Use use : {Use::kPixel, Use::kSun, Use::kOnward}) {
       std::set<int> columns, rows, squares;
       for (std::uint32_t s = 0; s < 16; ++s) {
         const auto [a, b] = PixelSampler(5, pixel, 3).pair(s, use);
@@ -29,7 +29,7 @@ TEST(PixelSampler, TheFirstFourLieInFourQuarters) {
   for (int pixel = 0; pixel < 50; ++pixel) {
     std::set<int> quarters;
     for (std::uint32_t s = 0; s < 4; ++s) {
-      const auto [a, b] = PixelSampler(5, 1, pixel).pair(s, Use::kSky);
+      const auto [a, b] = PixelSampler(5, 1, pixel).pair(s, Use::kOnward);
       quarters.insert(int(2 * a) * 2 + int(2 * b));
     }
     EXPECT_EQ(quarters.size(), 4u);
@@ -40,7 +40,7 @@ TEST(PixelSampler, IsAPureFunctionThatDiffersBetweenPixelsUsesAndSeeds) {
   const auto at = [](std::uint64_t seed, int x, Use use) { return PixelSampler(seed, x, 2).pair(0, use); };
   EXPECT_EQ(at(1, 1, Use::kSun), at(1, 1, Use::kSun));
   EXPECT_NE(at(1, 1, Use::kSun), at(1, 2, Use::kSun));
-  EXPECT_NE(at(1, 1, Use::kSun), at(1, 1, Use::kSky));
+  EXPECT_NE(at(1, 1, Use::kSun), at(1, 1, Use::kOnward));
   EXPECT_NE(at(1, 1, Use::kSun), at(2, 1, Use::kSun));
 }
 
