@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kKernel[5] = {1 / 16.0f, 1 / 4.0f, 3 / 8.0f, 1 / 4.0f, 1 / 16.0f};
 constexpr int kStrides[] = {1, 2, 4, 8};
-constexpr float kSigmas = 3;              // of noise, beyond which a difference is real
+constexpr float kSigmas = 5;              // of noise, beyond which a difference is real; at 3 a lone hidden ray stays as a speck
 constexpr float kLeastNoise = 0.01f;      // of the light: what differs by less is smoothed whatever its noise seems to be
 // After the first pass neighbours share what they are means of. On an even wall the passes' kernels together are as wide as
 // 1, 5, 21 and 85 pixels of variance: each gains 4 to 5 times the samples, not the 13 of a pass over independent ones.
