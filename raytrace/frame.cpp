@@ -10,17 +10,18 @@
 namespace cambium {
 namespace {
 
-// The sky's and the bounces' light at its mean, so that only edges, texture and the sun's shadow count: its noise is smoothed.
+// About the light of sky and bounces, so that only edges, texture and the sun's shadow count.
 constexpr double kEvenAmbient = 0.45;
 constexpr std::size_t kChunk = 64;  // pixels that one thread takes at once: a quarter of a tile
 
 }  // namespace
 
-Frame::Frame(const PixelRect& whole, const PixelRect& area, double exposure, bool first_hits)
-    : whole_(whole), area_(area), exposure_(exposure), sums_(area.size()), first_hits_(first_hits ? area.size() : 0) {}
+Frame::Frame(const PixelRect& whole, const PixelRect& area, const FrameOptions& options)
+    : whole_(whole), area_(area), options_(options), sums_(area.size()), first_hits_(options.first_hits ? area.size() : 0) {}
 
 double Frame::displayed(const CameraSample& sample) const {
-  const double shown = luminance(display_from_linear(exposure_ * (sample.direct + kEvenAmbient * sample.albedo)));
+  const Vec3 ambient = options_.even_ambient ? Vec3(kEvenAmbient) : sample.ambient;
+  const double shown = luminance(display_from_linear(options_.exposure * (sample.direct + sample.albedo * ambient)));
   return shown + (1 - sample.alpha);  // what is transparent as white: bark is darker
 }
 

@@ -18,10 +18,15 @@ class SampleSource {
   virtual CameraSample sample(int x, int y, std::uint32_t index) const = 0;
 };
 
+struct FrameOptions {
+  double exposure = 1;         ///< what the light is multiplied with before it is displayed
+  bool even_ambient = true;    ///< judge pixels as if the ambient light were even: its noise will be smoothed
+  bool first_hits = false;     ///< keep what AOVs need
+};
+
 class Frame {
  public:
-  /// exposure: what the light is multiplied with before it is displayed. first_hits: keep what AOVs need.
-  Frame(const PixelRect& whole, const PixelRect& area, double exposure, bool first_hits);
+  Frame(const PixelRect& whole, const PixelRect& area, const FrameOptions& options);
 
   const PixelRect& whole() const { return whole_; }
   const PixelRect& area() const { return area_; }   ///< the pixels that have sums
@@ -38,7 +43,7 @@ class Frame {
   double displayed(const CameraSample& sample) const;
 
   PixelRect whole_, area_;
-  double exposure_ = 1;
+  FrameOptions options_;
   std::vector<PixelSum> sums_;
   std::vector<FirstHitSum> first_hits_;
   std::size_t rays_ = 0;

@@ -171,7 +171,7 @@ std::optional<Rendered> Renderer::render(const RenderOptions& options, const Run
     const PixelRect developed = developed_area(crop, whole, options.smooth);
     const PixelRect sampled = sampled_area(developed, whole, options.sampling);
     const PixelMask surface = silhouette(scene_->boxes, view, sampled, options.sampling.filter_radius);
-    Frame frame(whole, sampled, options.exposure, !options.aovs.empty());
+    Frame frame(whole, sampled, {options.exposure, options.smooth, !options.aovs.empty()});
 
     Rendered out;
     out.report.samples = take_passes(frame, CameraSamples(view, path_tracer, options.sampling, options.seed), developed, surface,
@@ -179,7 +179,7 @@ std::optional<Rendered> Renderer::render(const RenderOptions& options, const Run
     if (out.report.samples == 0) return std::nullopt;
     out.interrupted = out.report.samples < options.sampling.max;
     out.report.seconds_trace = watch.lap();
-    out.film = develop(frame, crop, {options.exposure, options.smooth, view, false, options.aovs});
+    out.film = develop(frame, crop, {options.exposure, options.smooth, view, options.light.backdrop == Backdrop::kTransparent, options.aovs});
     out.report.seconds_develop = watch.lap();
     out.report.seconds_cover = scene_->seconds;
     out.report.cells = scene_->tracer.cover().size();

@@ -34,7 +34,7 @@ constexpr int kSide = 64;
 constexpr PixelRect kWhole{0, 0, kSide, kSide};
 
 Frame taken(const Drawing& drawing, const Sampling& sampling, bool surface_everywhere = false) {
-  Frame frame(kWhole, kWhole, 1, false);
+  Frame frame(kWhole, kWhole, {});
   PixelMask surface(kWhole);
   if (surface_everywhere) surface.set(kWhole);
   EXPECT_EQ(take_passes(frame, drawing, kWhole, surface, sampling, {}, {}), sampling.max);
@@ -110,7 +110,7 @@ TEST(AdaptiveSampling, ACancelledPassLeavesTheFrameAsTheLastOneDid) {
     if (cancel || left-- < 0) cancel = true;
     return x < 0.7 * y ? 0.05 : 0.9;
   });
-  Frame frame(kWhole, kWhole, 1, false);
+  Frame frame(kWhole, kWhole, {});
   RunOptions run;
   run.cancel = &cancel;
   left = 1 << 30;
@@ -129,7 +129,7 @@ TEST(AdaptiveSampling, ACancelledPassLeavesTheFrameAsTheLastOneDid) {
 TEST(AdaptiveSampling, BeforeTheFirstPassIsFinishedThereIsNothing) {
   std::atomic<bool> cancel{false};
   const Drawing stops([&](double x, double) { cancel = cancel || x > 32; return 0.5; });
-  Frame frame(kWhole, kWhole, 1, false);
+  Frame frame(kWhole, kWhole, {});
   RunOptions run;
   run.cancel = &cancel;
   EXPECT_EQ(take_passes(frame, stops, kWhole, PixelMask(kWhole), {}, run, {}), 0);
