@@ -153,7 +153,8 @@ BarkLook Bark::blended(std::span<const Contribution> contributions, const Surfac
   out.branch = main->branch;
   out.order = main->order;
   out.uv = {main->u, main->v};
-  if (traits.ridge > 0 || traits.dent > 0 || traits.cut > 0) show_wounds(*main, traits, footprint, seed_, out, relief_gradient);
+  if (traits.ridge > 0 || traits.dent > 0 || traits.cut > 0)
+    show_wounds(*main, material(main->order), traits, footprint, seed_, out, relief_gradient);
   out.albedo = glm::clamp(out.albedo, 0.0, 0.95);
   out.roughness = std::clamp(out.roughness, 0.05, 1.0);
   return out;

@@ -64,7 +64,7 @@ BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
   const N bend = 0.45 * at.noise(1, 1, 1) + 0.14 * at.noise(4, 4, 2), rise = 0.40 * at.noise(1, 1.4, 3) + 0.12 * at.noise(4, 5, 4);
   const N ragged = at.kept(0.2) * 0.05 * at.noise(9, 12, 5) + at.kept(0.07) * 0.025 * at.noise(25, 34, 6);
   const auto plate = at.cells(at.x + bend, at.y + rise, 0.95, 0);
-  const N body = smooth(-0.01, 0.20 * open, plate.border + ragged);
+  const N body = smooth(-0.02, 0.19 * open, plate.border + ragged + (0.08 * open) * at.noise(1, 1, 13));
   // Sheets: the steps of a slow noise that follows the plate's border, each with its own tone.
   const N slow = 2.6 * at.noise(2, 2, 7) + 1.5 * at.noise(5, 5, 8) + 9.0 * ragged + 3.0 * plate.border + 9 * plate.random;
   const double whole = std::floor(value_of(slow)), sheet = at.kept(0.15);
@@ -77,7 +77,7 @@ BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
   const N height = body * top;
   out.relief = 0.26 * at.width * open * (height - 1.0);
   out.height = std::clamp(value_of(height), 0.0, 1.0);
-  const double b = value_of(body), cover = smooth(0.08, 0.7, b), edge = 0.11 + sheet * (0.89 - value_of(step));
+  const double b = value_of(body), cover = smooth(0.05, 0.60, b), edge = 0.11 + sheet * (0.89 - value_of(step));
   const double shade = 1 + 0.30 * layer + 0.25 * (plate.random - 0.5) + 0.26 * value_of(grain) - 0.30 * edge +
                        0.25 * value_of(at.noise(1, 1, 12));
   out.outer = cover * shade;
@@ -87,25 +87,25 @@ BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
   return out;
 }
 
-/// Skin with pores, faint wrinkles and blotches.
+/// Skin with pores, wrinkles across and blotches.
 template <BarkNumber N>
 BarkTexel<N> smooth_skin(const BarkLattice<N>& at, double) {
-  const N pore = at.pores(at.x, 1.6 * at.y, 0.6, 0.16, 0.07, 0.10, 1);
-  const N wrinkle = at.kept(0.12) * at.noise(3, 14, 2) + at.kept(0.05) * 0.6 * at.noise(9, 40, 3);
+  const N pore = at.pores(at.x + 0.1 * at.noise(2, 2, 10), 1.6 * at.y, 0.65, 0.19, 0.085, 0.12, 1);
+  const N wrinkle = at.kept(0.12) * at.noise(3, 14, 2) + at.kept(0.05) * 0.7 * at.noise(9, 40, 3);
   const N swell = at.noise(1, 0.8, 4);
-  const N grain = at.kept(0.04) * at.noise(26, 26, 5);
-  const double blotch = smooth(-0.05, 0.25, value_of(at.noise(1, 0.9, 6)) + 0.5 * at.kept(0.2) * value_of(at.noise(5, 5, 7)) +
-                                                0.3 * value_of(grain));
+  const N grain = at.kept(0.06) * at.noise(17, 20, 5) + at.kept(0.025) * 0.7 * at.noise(41, 45, 11);
+  const double blotch = smooth(-0.10, 0.25, value_of(at.noise(1, 0.9, 6)) + 0.5 * at.kept(0.2) * value_of(at.noise(5, 5, 7)) +
+                                                0.35 * value_of(grain));
   BarkTexel<N> out;
-  const N height = 0.86 + 0.08 * wrinkle + 0.20 * swell + 0.03 * grain + 0.35 * pore;
-  out.relief = 0.055 * at.width * (height - 1.0);
-  out.height = std::clamp(0.92 + 0.05 * value_of(wrinkle), 0.0, 1.0);
+  const N height = 0.80 + 0.13 * wrinkle + 0.20 * swell + 0.045 * grain + 0.30 * pore;
+  out.relief = 0.065 * at.width * (height - 1.0);
+  out.height = std::clamp(0.92 + 0.07 * value_of(wrinkle), 0.0, 1.0);
   const double p = value_of(pore);
-  const double shade = 1 + 0.20 * (blotch - 0.5) + 0.16 * value_of(wrinkle) + 0.14 * value_of(grain) +
-                       0.16 * at.kept(0.3) * value_of(at.noise(4, 0.5, 8));
+  const double shade = 1 + 0.30 * (blotch - 0.5) + 0.24 * value_of(wrinkle) + 0.20 * value_of(grain) +
+                       0.22 * at.kept(0.3) * value_of(at.noise(4, 0.5, 8));
   out.outer = (1 - 0.85 * p) * shade;
   out.inner = 0.85 * p;
-  out.warm = (1 - p) * (0.8 * value_of(at.noise(1, 0.5, 9)) - 0.25 * (blotch - 0.5));
+  out.warm = (1 - p) * (1.0 * value_of(at.noise(1, 0.5, 9)) - 0.4 * (blotch - 0.5));
   out.roughness = 0.62 + 0.10 * blotch + 0.15 * p;
   return out;
 }
@@ -160,7 +160,7 @@ constexpr BarkTexel<double> kNothing{0.0, 0, 0, 0, 0, 0, 0};
 
 /// The mean of a style over enough of it; relief in widths of a column.
 BarkTexel<double> averaged(BarkStyle style, double open) {
-  constexpr int kSide = 80, kColumns = 32;
+  constexpr int kSide = 56, kColumns = 28;
   BarkTexel<double> sum = kNothing;
   for (int i = 0; i < kSide * kSide; ++i) {
     const double x = kColumns * (i % kSide + 0.5) / kSide, y = kColumns * (i / kSide + 0.5) / kSide;

@@ -5,9 +5,9 @@
 
 namespace cambium {
 
-/// Turns a blended look into that of a wound as far as the traits say. main: the primitive that contributes most.
-/// relief_gradient: of the look's relief, in the world.
-void show_wounds(const Contribution& main, const SurfaceTraits& traits, double footprint, std::uint64_t seed, BarkLook& look,
-                 Vec3& relief_gradient);
+/// Turns a blended look into that of a wound as far as the traits say. main: the primitive that contributes most, and material
+/// what it is covered with. relief_gradient: of the look's relief, in the world.
+void show_wounds(const Contribution& main, const BarkMaterial& material, const SurfaceTraits& traits, double footprint,
+                 std::uint64_t seed, BarkLook& look, Vec3& relief_gradient);
 
 }  // namespace cambium

@@ -20,11 +20,11 @@ Contribution on_trunk(double u, double v) {
   return c;
 }
 
-BarkLook wounded(const Contribution& c, const SurfaceTraits& traits, double footprint = 0) {
+BarkLook wounded(const Contribution& c, const SurfaceTraits& traits, double footprint = 0, const BarkMaterial& material = {}) {
   BarkLook look;
   look.albedo = Vec3(0.25, 0.22, 0.18);
   Vec3 gradient(0.0);
-  show_wounds(c, traits, footprint, 5, look, gradient);
+  show_wounds(c, material, traits, footprint, 5, look, gradient);
   return look;
 }
 
@@ -36,6 +36,17 @@ TEST(BarkWounds, ARidgeIsADarkLine) {
     beside += luminance(wounded(c, {0, 0.1, 0}).albedo);
   }
   EXPECT_LT(line, 0.5 * beside);
+}
+
+TEST(BarkWounds, WhiteBarkHasABlackBrowWellBesideTheLine) {
+  const BarkMaterial birch{.style = BarkStyle::kBirch, .color = {0.7, 0.7, 0.7}, .crack_color = {0.03, 0.03, 0.03}};
+  double brow = 0, fold = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Contribution c = on_trunk(0.005 * i, 0.01 * i);
+    brow += luminance(wounded(c, {0, 0.4, 0}, 0, birch).albedo);
+    fold += luminance(wounded(c, {0, 0.4, 0}).albedo);
+  }
+  EXPECT_LT(brow, 0.6 * fold);
 }
 
 TEST(BarkWounds, AScarIsGreyWithinADarkerRim) {
