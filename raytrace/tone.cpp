@@ -11,15 +11,25 @@ double srgb_from_linear(double linear) {
 
 double linear_from_srgb(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
+namespace {
+
+constexpr double kGain = 1.3;        // shows middle grey, 0.18, as 0.41 of the screen's range
+constexpr double kBrightest = 1e4;   // beyond, all is white: the curve's squares stay finite
+
+/// Not a number and what is darker than black: black.
+double limited(double radiance) { return radiance > 0 ? std::min(kGain * radiance, kBrightest) : 0; }
+
+}  // namespace
+
 Vec3 display_from_linear(const Vec3& radiance) {
-  Vec3 out;
-  for (int c = 0; c < 3; ++c) {
-    const double x = std::isfinite(radiance[c]) ? std::max(0.0, 0.62 * radiance[c]) : 0.0;
-    // Narkowicz 2015, a fit to the ACES reference curve; the factor above keeps a white wall in the sun below clipping.
-    const double y = std::min(1.0, x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14));
-    out[c] = srgb_from_linear(x > 1e4 ? 1.0 : y);
-  }
-  return out;
+  // Hill's fit to the ACES reference rendering and output transforms: the curve works on channels that overlap, so that bright
+  // colours fade to white as on film and none turns into another. Columns, as glm has them.
+  static const glm::dmat3 kToOverlapping(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
+  static const glm::dmat3 kFromOverlapping(1.60475, -0.10208, -0.00327, -0.53108, 1.10813, -0.07276, -0.07367, -0.00605, 1.07602);
+  const Vec3 v = kToOverlapping * Vec3(limited(radiance.x), limited(radiance.y), limited(radiance.z));
+  const Vec3 curved = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+  const Vec3 shown = glm::clamp(kFromOverlapping * curved, 0.0, 1.0);
+  return {srgb_from_linear(shown.x), srgb_from_linear(shown.y), srgb_from_linear(shown.z)};
 }
 
 }  // namespace cambium

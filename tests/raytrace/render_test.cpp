@@ -231,6 +231,46 @@ TEST(Render, TheEmptySkyTakesTheFewestSamplesAndTheOutlineTheMost) {
   EXPECT_LT(out->report.samples_per_pixel, 8);
 }
 
+TEST(Render, MattesOfAPixelAddUpToWhatItsSamplesHit) {
+  RenderOptions options = small();
+  options.aovs = {Aov::kCryptomatte, Aov::kDepth};
+  options.camera.eye = Vec3(0, -3, 3);
+  options.camera.target = Vec3(0, 0, 0);  // from above: the ground fills what the tree leaves
+  const auto out = render(scenes::forked(), options, {});
+  ASSERT_TRUE(out);
+  const std::vector<float>& mattes = out->film.aov(Aov::kCryptomatte);
+  int shared = 0;
+  for (std::size_t i = 0; i < out->film.pixels(); ++i) {
+    float covered = 0;
+    for (int rank = 0; rank < 6; ++rank) covered += mattes[12 * i + 2 * rank + 1];
+    EXPECT_NEAR(covered, 1, 1e-6) << i;
+    shared += mattes[12 * i + 3] > 0;
+  }
+  EXPECT_GT(shared, 20);
+  EXPECT_EQ(out->film.branches, (std::set<std::int32_t>{-1, 0, 1}));
+  options.light.ground = false;
+  options.camera.eye.reset();
+  const auto before_sky = render(scenes::forked(), options, {});
+  ASSERT_TRUE(before_sky);
+  EXPECT_EQ(before_sky->film.aov(Aov::kCryptomatte)[1], 0);
+  EXPECT_FALSE(before_sky->film.branches.contains(-1));
+}
+
+TEST(Render, ATransparentBackdropHasNoAlphaAndTheTreeAll) {
+  RenderOptions options = small();
+  options.light.ground = false;
+  options.light.backdrop = Backdrop::kTransparent;
+  const auto out = render(scenes::sphere({0, 0, 0}, 1), options, {});
+  ASSERT_TRUE(out);
+  EXPECT_TRUE(out->film.transparent);
+  const auto rgba = [&](int x, int y) { return &out->film.color[4 * (std::size_t(y) * 48 + x)]; };
+  for (int c = 0; c < 4; ++c) EXPECT_EQ(rgba(0, 0)[c], 0);
+  EXPECT_EQ(rgba(24, 32)[3], 1);
+  int partly = 0;
+  for (std::size_t i = 0; i < out->film.pixels(); ++i) partly += out->film.color[4 * i + 3] > 0 && out->film.color[4 * i + 3] < 1;
+  EXPECT_GT(partly, 40);
+}
+
 TEST(Render, RefusesImpossibleSizes) {
   const Field field = scenes::trunk();
   RenderOptions options = small();
