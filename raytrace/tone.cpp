@@ -13,7 +13,7 @@ double linear_from_srgb(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : s
 
 namespace {
 
-constexpr double kGain = 1.3;        // shows middle grey, 0.18, as 0.41 of the screen's range
+constexpr double kGain = 1.3;        // shows middle grey, 0.18, as 0.43 of the screen's range
 constexpr double kBrightest = 1e4;   // beyond, all is white: the curve's squares stay finite
 
 /// Not a number and what is darker than black: black.
