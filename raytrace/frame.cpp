@@ -25,37 +25,58 @@ double Frame::displayed(const CameraSample& sample) const {
   return shown + (1 - sample.alpha);  // what is transparent as white: bark is darker
 }
 
+/// Pixels as they were before a pass. Of a first pass there is nothing to keep: they were empty.
+class Frame::Saved {
+ public:
+  Saved(const Frame& frame, const std::vector<std::uint32_t>& pixels) : pixels_(pixels) {
+    if (!frame.taken_) return;
+    for (const std::uint32_t pixel : pixels) {
+      sums_.push_back(frame.sums_[pixel]);
+      if (frame.options_.first_hits) first_hits_.push_back(frame.first_hits_[pixel]);
+    }
+  }
+
+  void restore(Frame& frame) const {
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+      frame.sums_[pixels_[i]] = frame.taken_ ? sums_[i] : PixelSum{};
+      if (frame.options_.first_hits) frame.first_hits_[pixels_[i]] = frame.taken_ ? first_hits_[i] : FirstHitSum{};
+    }
+  }
+
+ private:
+  const std::vector<std::uint32_t>& pixels_;
+  std::vector<PixelSum> sums_;
+  std::vector<FirstHitSum> first_hits_;
+};
+
+std::size_t Frame::add_samples(const SampleSource& source, std::uint32_t pixel, int until, const RunOptions& run) {
+  const int x = area_.x0 + static_cast<int>(pixel % area_.width()), y = area_.y0 + static_cast<int>(pixel / area_.width());
+  std::size_t rays = 0;
+  for (int s = sums_[pixel].samples; s < until && !run.cancelled(); ++s) {
+    const CameraSample sample = source.sample(x, y, static_cast<std::uint32_t>(s));
+    sums_[pixel].add(sample, displayed(sample));
+    if (options_.first_hits) first_hits_[pixel].add(sample);
+    rays += sample.rays;
+  }
+  return rays;
+}
+
 bool Frame::take(const SampleSource& source, const std::vector<std::uint32_t>& pixels, int until, ProgressMeter& progress,
                  double progress_share, const RunOptions& run) {
-  // Into copies, which replace the sums once all are there.
-  std::vector<PixelSum> sums(pixels.size());
-  std::vector<FirstHitSum> first_hits(first_hits_.empty() ? 0 : pixels.size());
+  const Saved before(*this, pixels);
   std::atomic<std::size_t> rays{0};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), kChunk), [&](const auto& chunk) {
     std::size_t chunk_rays = 0;
-    for (std::size_t i = chunk.begin(); i < chunk.end(); ++i) {
-      const int x = area_.x0 + static_cast<int>(pixels[i] % area_.width()), y = area_.y0 + static_cast<int>(pixels[i] / area_.width());
-      PixelSum sum = sums_[pixels[i]];
-      FirstHitSum first = first_hits_.empty() ? FirstHitSum{} : first_hits_[pixels[i]];
-      for (int s = sum.samples; s < until; ++s) {
-        if (run.cancelled()) return;
-        const CameraSample sample = source.sample(x, y, static_cast<std::uint32_t>(s));
-        sum.add(sample, displayed(sample));
-        if (!first_hits.empty()) first.add(sample);
-        chunk_rays += sample.rays;
-      }
-      sums[i] = sum;
-      if (!first_hits.empty()) first_hits[i] = first;
-    }
+    for (std::size_t i = chunk.begin(); i < chunk.end() && !run.cancelled(); ++i) chunk_rays += add_samples(source, pixels[i], until, run);
     rays += chunk_rays;
     progress.add(progress_share * double(chunk.size()) / double(pixels.size()));
   });
-  if (run.cancelled()) return false;
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    sums_[pixels[i]] = sums[i];
-    if (!first_hits.empty()) first_hits_[pixels[i]] = first_hits[i];
+  if (run.cancelled()) {
+    before.restore(*this);
+    return false;
   }
   rays_ += rays;
+  taken_ = true;
   return true;
 }
 

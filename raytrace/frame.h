@@ -40,6 +40,8 @@ class Frame {
             double progress_share, const RunOptions& run);
 
  private:
+  class Saved;
+  std::size_t add_samples(const SampleSource& source, std::uint32_t pixel, int until, const RunOptions& run);
   double displayed(const CameraSample& sample) const;
 
   PixelRect whole_, area_;
@@ -47,6 +49,7 @@ class Frame {
   std::vector<PixelSum> sums_;
   std::vector<FirstHitSum> first_hits_;
   std::size_t rays_ = 0;
+  bool taken_ = false;   ///< a pass has been finished
 };
 
 }  // namespace cambium
