@@ -70,6 +70,8 @@ void declare(CLI::App& app, CommandLine& line) {
   render->add_option("--samples", line.samples, "per pixel, as min..max such as 1..16; 16 alone: up to 16");
   render->add_option("--noise", line.noise,
                      "a pixel is done when the standard error of its brightness on the screen, 0 to 1, is below; 0.0175 by default");
+  render->add_option("--bounces", line.bounces,
+                     "surfaces that light may touch on its way to the one seen; 0: sun, sky and lamps alone; 1 by default");
   render->add_option("--crop", line.crop, "x0,y0,x1,y1: only these pixels of the whole picture, the last not included");
   render->add_option("--bits", line.bits, "of each channel of a .png: 8 or 16")->check(CLI::IsMember({8, 16}));
   render->add_option("--aov", line.aovs,

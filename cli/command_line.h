@@ -32,6 +32,7 @@ struct CommandLine {
   std::string size;                          ///< render
   std::string samples, crop;                 ///< render
   std::optional<double> noise;               ///< render
+  std::optional<int> bounces;                ///< render
   int bits = 8;                              ///< render
   std::vector<std::string> aovs;             ///< render
 };

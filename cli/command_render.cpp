@@ -42,6 +42,11 @@ RenderOptions render_options(const Job& job) {
     if (!(*line.noise >= 0 && *line.noise <= 1)) throw InputError({"--noise"}, fmt::format("{}", *line.noise), "a number from 0 to 1");
     options.sampling.noise = *line.noise;
   }
+  if (line.bounces) {
+    if (*line.bounces < 0 || *line.bounces > kMostBounces)
+      throw InputError({"--bounces"}, fmt::format("{}", *line.bounces), fmt::format("0 to {}", kMostBounces));
+    options.paths.bounces = *line.bounces;
+  }
   if (!line.crop.empty()) options.crop = parse_crop(line.crop, {"--crop"});
   check_crop(options, {line.crop.empty() ? line.input : "--crop"});
   options.bark = load_bark(job.recipe);

@@ -118,7 +118,7 @@ const KeyRule<RenderRecipe> kRenderKeys[] = {
     {"exposure", read_exposure},
     {"seed",
      [](const RecipeValue& v, RenderRecipe& r) { r.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},
-    {"bounces", [](const RecipeValue& v, RenderRecipe& r) { r.paths.bounces = static_cast<int>(v.integer(0, 1000)); }},
+    {"bounces", [](const RecipeValue& v, RenderRecipe& r) { r.paths.bounces = static_cast<int>(v.integer(0, kMostBounces)); }},
     {"clamp", [](const RecipeValue& v, RenderRecipe& r) { r.paths.clamp = v.positive(); }},
     {"occlusion_distance", [](const RecipeValue& v, RenderRecipe& r) { r.paths.occlusion_distance = v.positive_length(); }},
     {"background", [](const RecipeValue& v, RenderRecipe& r) { read_backdrop(v, r.light); }},

@@ -109,8 +109,9 @@ Lights::Lights(const Light& light)
     sun_color_ = light.sun_color.value_or(day ? daylight_sun(light.turbidity, light.sun_elevation, size) : kStudioSun);
   }
   sunlit_ = luminance(sun_color_) > 0;
-  sun_on_level_ground_ = sun_color_ * std::max(0.0, sun_.z);
-  on_level_ground_ = sun_on_level_ground_ + mean_sky();
+  const Vec3 sun_on_level_ground = sun_color_ * std::max(0.0, sun_.z);
+  on_level_ground_ = sun_on_level_ground + mean_sky();
+  sharp_on_level_ground_ = sun_on_level_ground + (environment_ ? environment_->spots_on_level_ground() : Vec3(0.0));
 }
 
 LightSample Lights::sun(const std::array<double, 2>& sample) const {
@@ -138,7 +139,7 @@ Vec3 Lights::mean_sky() const {
 }
 
 Vec3 Lights::around(const Vec3& direction) const {
-  if (environment_) return sky(direction);
+  if (environment_) return environment_->even_radiance(direction);
   // Over a narrow band, so that the horizon makes no edge in the shading.
   const double above = std::clamp(0.5 + direction.z / 0.1, 0.0, 1.0);
   if (above == 1) return sky(direction);

@@ -45,7 +45,8 @@ class Lights {
   /// A direction to the sun's disc. Only light samples find it: a ray that leaves the scene does not.
   LightSample sun(const std::array<double, 2>& sample) const;
 
-  /// Radiance that a ray brings which leaves the scene. Without a ground, the sky ends in even ground of ground_color.
+  /// Radiance that a ray brings which leaves the scene: without an environment's spots, which only light samples find. Without a
+  /// ground, the sky ends in even ground of ground_color.
   Vec3 around(const Vec3& direction) const;
   /// The image to draw light samples from; null where the sky is so even that rays need no guidance.
   const Environment* environment() const { return environment_; }
@@ -53,9 +54,9 @@ class Lights {
   Vec3 backdrop(const Vec3& direction) const;
   /// And before that of a daylight sky, the sun's disc.
   Vec3 sun_disc(const Vec3& direction) const;
-  /// Of level ground under the open sky: what shows white, in all and by the sun alone.
+  /// What level white ground shows under the open sky: in all, and by the sun and an environment's spots. Lamps do not count.
   const Vec3& on_level_ground() const { return on_level_ground_; }
-  const Vec3& sun_on_level_ground() const { return sun_on_level_ground_; }
+  const Vec3& sharp_on_level_ground() const { return sharp_on_level_ground_; }
 
   const std::vector<Lamp>& lamps() const { return lamps_; }
 
@@ -69,7 +70,7 @@ class Lights {
   std::vector<Lamp> lamps_;
   Vec3 sun_, sun_s_, sun_t_;
   Vec3 sun_color_{0.0};
-  Vec3 on_level_ground_{0.0}, sun_on_level_ground_{0.0};
+  Vec3 on_level_ground_{0.0}, sharp_on_level_ground_{0.0};
   double sun_tangent_ = 0, sun_cosine_ = 1;   ///< of its angular radius
   bool sunlit_ = false;
 };

@@ -5,6 +5,8 @@
 
 namespace cambium {
 
+inline constexpr int kMostBounces = 1000;
+
 struct PathOptions {
   /// Surfaces that light may touch between the one seen and its source. 0: sun, sky and lamps by shadow rays alone.
   int bounces = 1;

@@ -10,8 +10,6 @@ namespace {
 
 // Rays that leave a surface start this far off it: far above the root's 1e-6, far below what an eye sees.
 constexpr double kOffsetRadii = 3e-4;
-// Where an environment image is that much brighter than its mean, its light makes shadows worth keeping sharp.
-constexpr double kSpotContrast = 30;
 constexpr double kFullHaze = 0.995;
 constexpr int kCatcherRays = 4;      // to the sky, for each sample of a shadow that no smoothing will see
 constexpr int kSureBounces = 3;      // before chance may end a path
@@ -94,9 +92,8 @@ PathTracer::Lit PathTracer::light_samples(Walk& walk, const Vertex& vertex, int 
     add(lights_.lamps()[i].sample(vertex.start, walk.pair(Use::kLamp, depth, i)), true, &Parts::sharp);
   }
   if (const Environment* around = lights_.environment()) {
-    const LightSample light = around->sample(walk.pair(Use::kAround, depth));
-    const bool spot = luminance(light.radiance) > kSpotContrast * around->mean_luminance();
-    add(light, true, spot ? &Parts::sharp : &Parts::soft);
+    add(around->sample_spots(walk.pair(Use::kSpot, depth)), false, &Parts::sharp);
+    add(around->sample_even(walk.pair(Use::kAround, depth)), true, &Parts::soft);
   }
   return lit;
 }
@@ -111,7 +108,7 @@ Vec3 PathTracer::emitted(const Ray& ray, double pdf, double t) const {
   }
   if (t < kInfinity) return light;
   const Environment* around = lights_.environment();
-  return light + (around ? mis_weight(pdf, around->pdf(ray.direction)) : 1) * lights_.around(ray.direction);
+  return light + (around ? mis_weight(pdf, around->even_pdf(ray.direction)) : 1) * lights_.around(ray.direction);
 }
 
 /// Light that comes to the vertex by rays of its own: from the sky, and from other surfaces by up to options.bounces of them.
@@ -183,8 +180,8 @@ void PathTracer::see_catcher(Walk& walk, const Ray& ray, double t, CameraSample&
   double lamps = 0;   // what they give or would give here
   if (!lights_.lamps().empty()) lamps = luminance(lit.reaching.sharp + lit.missing.sharp);
   const double whole = std::max(1e-12, luminance(lights_.on_level_ground()) + lamps);
-  const double by_sun = luminance(lights_.sun_on_level_ground()) / whole;
-  const double sharp_left = by_sun - luminance(sharp) / whole, soft_left = 1 - by_sun - luminance(soft) / whole;
+  const double sharp_share = luminance(lights_.sharp_on_level_ground()) / whole;
+  const double sharp_left = sharp_share - luminance(sharp) / whole, soft_left = 1 - sharp_share - luminance(soft) / whole;
   if (transparent_) {
     out.alpha = 1 - sharp_left - soft_left;
     return;

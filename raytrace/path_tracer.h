@@ -13,8 +13,7 @@
 namespace cambium {
 
 /// Path tracing with light samples and multiple importance sampling (Veach 1997). What a ray brings is kept in two parts:
-/// `direct`, sharp and nearly without noise: sun, lamps, what the camera sees of the sky, and what an environment image has of
-/// small bright spots; and `ambient`, noisy and even: sky and bounces, over the surface's reflectance. Both are unbiased.
+/// `direct`, sharp and nearly without noise: sun, lamps, an environment's spots, and what the camera sees of the sky; and `ambient`, noisy and even: sky and bounces, over the surface's reflectance. Both are unbiased.
 /// Thread safe; each thread brings its own Evaluator. A pure function of its arguments.
 class PathTracer {
  public:

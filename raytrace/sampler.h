@@ -9,7 +9,7 @@
 namespace cambium {
 
 /// What a pair of numbers is for; each use has its own scramble.
-enum class Use : std::uint32_t { kPixel, kLens, kOnward, kRoulette, kSun, kAround, kLamp };
+enum class Use : std::uint32_t { kPixel, kLens, kOnward, kRoulette, kSun, kSpot, kAround, kLamp };
 
 class PixelSampler {
  public:

@@ -11,6 +11,9 @@ constexpr double kUnit = 12.5;                  // kcd/m2 of radiance 1
 constexpr double kExtraterrestrial = 133.3;     // klx, the sun's before the air (Darula, Kittler and Gueymard 2005)
 constexpr double kLeastCosine = 0.01;           // of the zenith distance: nearer to the horizon the sky stays the same
 
+/// Chromaticity y of daylight with that x (Judd, MacAdam and Wyszecki 1964).
+double daylight_locus(double x) { return (2.870 - 3.000 * x) * x - 0.275; }
+
 double clamped_turbidity(double turbidity) { return std::clamp(turbidity, 2.0, 10.0); }
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -96,7 +99,7 @@ Vec3 Daylight::radiance(const Vec3& direction) const {
   const double gamma = std::acos(cos_gamma);
   double xyY[3];
   for (int i = 0; i < 3; ++i) xyY[i] = xyY_[i].scale * xyY_[i].perez(cos_theta, gamma, cos_gamma);
-  const double x = std::clamp(xyY[0], 0.0, 0.8), y = std::clamp(xyY[1], 0.05, 0.8), over = std::max(0.0, xyY[2]) / y;
+  const double x = std::clamp(xyY[0], 0.0, 0.8), y = std::clamp(std::max(xyY[1], daylight_locus(x)), 0.05, 0.8), over = std::max(0.0, xyY[2]) / y;
   return srgb_from_xyz({x * over, y * over, std::max(0.0, 1 - x - y) * over});
 }
 

@@ -11,6 +11,8 @@ namespace cambium {
 /// 12,500 cd/m2. Colours outside sRGB are clipped to it.
 class Daylight {
  public:
+  /// Near the horizon the paper's fit lies on the pink side of the colours that daylight has; there they are put on the line of
+  /// those (Judd, MacAdam and Wyszecki 1964).
   /// turbidity is clamped to [2, 10]. Below the horizon the sun leaves the colours of its setting, fading to a hundredth at 6
   /// degrees (the end of civil twilight).
   Daylight(double turbidity, const Vec3& towards_sun);

@@ -58,7 +58,7 @@ TEST(Environment, ThePdfIntegratesToOne) {
   const Environment around(room(), 0.4);
   constexpr int kCount = 2000000;
   double sum = 0;
-  for (int i = 0; i < kCount; ++i) sum += around.pdf(even_direction(i, kCount));
+  for (int i = 0; i < kCount; ++i) sum += around.even_pdf(even_direction(i, kCount));
   EXPECT_NEAR(sum * 4 * kPi / kCount, 1, 2e-3);
 }
 
@@ -73,32 +73,41 @@ TEST(Environment, SamplesGiveItsIrradianceWithoutBias) {
   }
   constexpr int kGuided = 40000;
   for (int i = 0; i < kGuided; ++i) {
-    const LightSample s = around.sample({(i + 0.5) / kGuided, unit_of(hash_of(1, i))});
-    ASSERT_GT(s.pdf, 0);
-    ASSERT_NEAR(glm::length(s.direction), 1, 1e-9);
-    EXPECT_EQ(s.radiance, around.radiance(s.direction));
-    guided += std::max(0.0, glm::dot(normal, s.direction)) / s.pdf * s.radiance;
+    const std::array<double, 2> random{(i + 0.5) / kGuided, unit_of(hash_of(1, i))};
+    for (const LightSample& s : {around.sample_even(random), around.sample_spots(random)}) {
+      ASSERT_GT(s.pdf, 0);
+      ASSERT_NEAR(glm::length(s.direction), 1, 1e-9);
+      guided += std::max(0.0, glm::dot(normal, s.direction)) / s.pdf * s.radiance;
+    }
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(guided[c] / kGuided, blind[c] / kCount, 0.02 * blind[c] / kCount) << c;
 }
 
-TEST(Environment, MostSamplesGoWhereTheLightIs) {
+TEST(Environment, SpotsAreFoundByTheirOwnSamplesAndMissingInTheRest) {
   const Environment around(room());
-  int bright = 0;
-  for (int i = 0; i < 1000; ++i) bright += luminance(around.sample({(i + 0.5) / 1000, unit_of(hash_of(2, i))}).radiance) > 1;
-  EXPECT_GT(bright, 350);   // from a two-hundredth of all directions
+  ASSERT_TRUE(around.has_spots());
+  const Vec3 lamp = direction_of(-2 * kPi * 4.5 / 32, kPi * (0.5 - 3.5 / 16));
+  EXPECT_NEAR(around.radiance(lamp).r, 90, 1e-3);
+  EXPECT_LT(around.even_radiance(lamp).r, 20);
+  for (int i = 0; i < 1000; ++i) {
+    const LightSample s = around.sample_spots({(i + 0.5) / 1000, unit_of(hash_of(2, i))});
+    EXPECT_GT(glm::dot(s.direction, lamp), std::cos(0.15));
+    EXPECT_NEAR(s.radiance.r, 90 - around.even_radiance(lamp).r, 1e-3);
+  }
+  EXPECT_FALSE(Environment(even(8, 4, 2)).has_spots());
 }
 
 TEST(Environment, AnEvenOneShowsItsValueOnLevelGround) {
   const Environment around(even(8, 4, 0.7f));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(around.on_level_ground()[c], 0.7, 1e-6);
-  EXPECT_NEAR(around.mean_luminance(), 0.7, 1e-6);
+  EXPECT_EQ(around.spots_on_level_ground(), Vec3(0.0));
 }
 
 TEST(Environment, ABlackOneIsNeverSampled) {
   const Environment around(even(8, 4, 0));
-  EXPECT_EQ(around.sample({0.3, 0.6}).pdf, 0);
-  EXPECT_EQ(around.pdf({0, 0, 1}), 0);
+  EXPECT_EQ(around.sample_even({0.3, 0.6}).pdf, 0);
+  EXPECT_EQ(around.sample_spots({0.3, 0.6}).pdf, 0);
+  EXPECT_EQ(around.even_pdf({0, 0, 1}), 0);
 }
 
 TEST(Environment, NegativeValuesCountAsDark) {

@@ -192,7 +192,7 @@ TEST(PathTracer, ACatcherShowsOnlyShadowAndAlphaIsTheLightThatIsMissing) {
   const auto shadow = on_ground(-2), open = on_ground(40);
   EXPECT_EQ(shadow.color, Vec3(0.0));
   const Lights lights(light);
-  const double by_sun = luminance(lights.sun_on_level_ground()) / luminance(lights.on_level_ground());
+  const double by_sun = luminance(lights.sharp_on_level_ground()) / luminance(lights.on_level_ground());
   EXPECT_GT(shadow.alpha, by_sun);
   EXPECT_LT(shadow.alpha, by_sun + 0.1);
   EXPECT_NEAR(open.alpha, 0, 0.003);

@@ -29,6 +29,15 @@ TEST(Daylight, TheZenithIsBlueAndTheHorizonPaler) {
   EXPECT_GT(luminance(horizon), luminance(zenith));
 }
 
+TEST(Daylight, TheHorizonIsNotPink) {
+  for (double turbidity : {3.0, 5.0}) {
+    for (double azimuth = 0; azimuth < 6; azimuth += 0.5) {
+      const Vec3 c = day(turbidity, 45).radiance(direction_of(azimuth, 0.03));
+      EXPECT_GT(c.g, 0.985 * std::sqrt(c.r * c.b)) << turbidity << ' ' << azimuth;
+    }
+  }
+}
+
 TEST(Daylight, IsBrighterTowardsTheSun) {
   const Daylight sky = day(4, 30);
   const Vec3 near = sky.radiance(direction_of(0.3, 35 * kDegree));
