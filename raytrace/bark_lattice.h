@@ -26,6 +26,12 @@ struct BarkLattice {
     return cambium::noise(double(across) * x, along * y, across * columns, seed + layer);
   }
 
+  /// The same of a detail of this size, as far as it is left: 0 is its mean.
+  N fine_noise(double size, std::uint32_t across, double along, std::uint32_t layer) const {
+    const double share = kept(size);
+    return share > 0 ? share * noise(across, along, layer) : N(0.0);
+  }
+
   struct Cell {
     N border;           ///< distance to it, in columns of the finer lattice
     double random = 0;
@@ -39,6 +45,11 @@ struct BarkLattice {
 
   /// A detail of this size and mean as far as it is left.
   N faded(const N& detail, double size, double mean) const { return mean + kept(size) * (detail - mean); }
+
+  /// The same of small cells: once a pixel covers them, they are all far from any border and alike.
+  Cell fine_cells(double size, const N& px, const N& py, double jitter, std::uint32_t layer, std::uint32_t across, double along) const {
+    return kept(size) > 0 ? cells(px, py, jitter, layer, across, along) : Cell{N(1.0), 0.5};
+  }
 
   /// Lens-shaped pores, at most one per cell of a lattice finer by `across`, with half axes in cells: 1 inside, 0 outside. `size`:
   /// of the smallest detail, in columns.

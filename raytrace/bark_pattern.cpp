@@ -10,14 +10,14 @@
 namespace cambium {
 namespace {
 
-/// What the styles have in common: how large a plate or pore is where it grows on a radius of kUsualRadius, and how much it grows
+/// What the styles have in common: how large a plate or pore is where it grows on a radius of 12 cm, and how much it grows
 /// with the girth (plates of a thick trunk are larger than those of a thin one, but not in proportion).
 struct Growth {
   double width = 0.03;      ///< metres around the girth
   double power = 0.5;       ///< width goes with radius^power
   double elongation = 1;    ///< height of a cell over its width
 };
-constexpr double kUsualRadius = 0.12;
+constexpr double kUsualOctave = -3.0589;   // log2 of 0.12
 
 Growth growth_of(BarkStyle style) {
   switch (style) {
@@ -32,28 +32,30 @@ Growth growth_of(BarkStyle style) {
 /// Deep furrows that braid around long flat ridges.
 template <BarkNumber N>
 BarkTexel<N> ridged(const BarkLattice<N>& at, double open) {
-  const N wander = 0.62 * at.noise(1, 1.3, 1) + 0.16 * at.noise(3, 5, 2);
+  const N wander = 0.80 * at.noise(1, 1.3, 1) + 0.22 * at.noise(3, 5, 2);
   const N rise = 0.25 * at.noise(2, 2, 3);
-  const N ragged = at.kept(0.25) * 0.055 * at.noise(7, 21, 4) + at.kept(0.09) * 0.03 * at.noise(18, 60, 5);
-  const auto ridge = at.cells(at.x + wander, at.y + rise, 0.85, 0);
+  const N ragged = 0.060 * at.fine_noise(0.25, 7, 28, 4) + 0.035 * at.fine_noise(0.09, 18, 80, 5);
+  const auto ridge = at.cells(at.x + wander, at.y + rise, 0.95, 0);
   // Some furrows are wide, others hardly open.
-  const N body = smooth(-0.02, 0.30 * open, ridge.border + ragged + (0.10 * open) * at.noise(1, 0.8, 11));
-  // The flat top is broken into small scales, and weathered along the grain.
-  const auto scale = at.cells(3.0 * at.x + 1.2 * wander + 3.0 * ragged, 3.5 * at.y + 8.0 * ragged, 0.9, 6, 3, 3.5);
+  const N body = smooth(-0.02, 0.30 * open, ridge.border + ragged + (0.12 * open) * at.noise(1, 0.8, 11));
+  // The flat top is broken into small scales and weathered; grey crusts grow on it.
+  const auto scale = at.fine_cells(0.3, 3.0 * at.x + 1.2 * wander + 3.0 * ragged, 6.0 * at.y + 10.0 * ragged, 0.95, 6, 3, 6.0);
   const double scaly = at.kept(0.3);
-  const N chipped = at.faded(smooth(0.15, 0.02, scale.border + 2.0 * ragged), 0.3, 0.22);
-  const N grain = at.kept(0.1) * at.noise(11, 16, 7) + at.kept(0.03) * 0.6 * at.noise(31, 50, 8);
-  const N top = 0.86 + 0.16 * scaly * (scale.random - 0.5) - 0.16 * chipped + 0.12 * grain;
+  const N chipped = at.faded(smooth(0.15, 0.02, scale.border + 2.0 * ragged), 0.3, 0.23);
+  const N patch = at.noise(3, 7, 13);
+  const N grain = (0.9 + patch) * at.fine_noise(0.1, 10, 24, 7) + 0.6 * (0.9 - patch) * at.fine_noise(0.03, 31, 90, 8);
+  const N crust = at.faded(smooth(0.08, 0.30, patch + 0.5 * grain), 0.3, 0.18);
+  const N top = 0.84 + 0.18 * scaly * (scale.random - 0.5) - 0.18 * chipped + 0.085 * grain + 0.03 * crust;
   BarkTexel<N> out;
   const N height = body * top;
   out.relief = 0.42 * at.width * open * (height - 1.0);
   out.height = std::clamp(value_of(height), 0.0, 1.0);
-  const double b = value_of(body), cover = smooth(0.10, 0.80, b);
-  const double shade = 1 + 0.30 * (ridge.random - 0.5) + 0.16 * scaly * (scale.random - 0.5) + 0.30 * value_of(grain) -
-                       0.34 * value_of(chipped) + 0.30 * value_of(at.noise(1, 0.4, 9));
+  const double b = value_of(body), cover = smooth(0.10, 0.80, b), pale = b * value_of(crust);
+  const double shade = 0.96 + 0.36 * (ridge.random - 0.5) + 0.22 * scaly * (scale.random - 0.5) + 0.32 * value_of(grain) -
+                       0.36 * value_of(chipped) + 0.34 * value_of(at.noise(1, 0.4, 9)) + 0.22 * pale;
   out.outer = cover * shade;
   out.inner = (1 - cover) * (1 + 0.5 * value_of(grain));
-  out.warm = cover * (1.6 * (1 - b) + 0.8 * scaly * (scale.random - 0.5) + 0.9 * value_of(at.noise(1, 0.7, 10)));
+  out.warm = cover * (1.0 * (1 - b) + 0.8 * scaly * (scale.random - 0.5) + 0.9 * value_of(at.noise(1, 0.7, 10)) - 0.35 * pale);
   out.roughness = 0.88 + 0.08 * (1 - b);
   return out;
 }
@@ -62,7 +64,7 @@ BarkTexel<N> ridged(const BarkLattice<N>& at, double open) {
 template <BarkNumber N>
 BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
   const N bend = 0.45 * at.noise(1, 1, 1) + 0.14 * at.noise(4, 4, 2), rise = 0.40 * at.noise(1, 1.4, 3) + 0.12 * at.noise(4, 5, 4);
-  const N ragged = at.kept(0.2) * 0.05 * at.noise(9, 12, 5) + at.kept(0.07) * 0.025 * at.noise(25, 34, 6);
+  const N ragged = 0.05 * at.fine_noise(0.2, 9, 12, 5) + 0.025 * at.fine_noise(0.07, 25, 34, 6);
   const auto plate = at.cells(at.x + bend, at.y + rise, 0.95, 0);
   const N body = smooth(-0.02, 0.19 * open, plate.border + ragged + (0.08 * open) * at.noise(1, 1, 13));
   // Sheets: the steps of a slow noise that follows the plate's border, each with its own tone.
@@ -70,7 +72,7 @@ BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
   const double whole = std::floor(value_of(slow)), sheet = at.kept(0.15);
   const N past = slow - whole, step = smooth(0.0, 0.22, past);
   const double last = at.random(whole - 1) - 0.5, layer = sheet * (last + value_of(step) * (at.random(whole) - 0.5 - last));
-  const N grain = at.kept(0.06) * at.noise(17, 22, 9) + at.kept(0.025) * 0.6 * at.noise(45, 60, 11);
+  const N grain = at.fine_noise(0.06, 17, 22, 9) + 0.6 * at.fine_noise(0.025, 45, 60, 11);
   BarkTexel<N> out;
   // Every sheet's edge is a small step; the sheet itself leans the other way, so that steps do not add up.
   const N top = 0.86 + sheet * 0.12 * (step - past) + 0.06 * grain;
@@ -91,10 +93,10 @@ BarkTexel<N> plated(const BarkLattice<N>& at, double open) {
 template <BarkNumber N>
 BarkTexel<N> smooth_skin(const BarkLattice<N>& at, double) {
   const N pore = at.pores(at.x + 0.1 * at.noise(2, 2, 10), 1.6 * at.y, 0.65, 0.19, 0.085, 0.12, 1);
-  const N wrinkle = at.kept(0.12) * at.noise(3, 14, 2) + at.kept(0.05) * 0.7 * at.noise(9, 40, 3);
+  const N wrinkle = at.fine_noise(0.12, 3, 14, 2) + 0.7 * at.fine_noise(0.05, 9, 40, 3);
   const N swell = at.noise(1, 0.8, 4);
-  const N grain = at.kept(0.06) * at.noise(17, 20, 5) + at.kept(0.025) * 0.7 * at.noise(41, 45, 11);
-  const double blotch = smooth(-0.10, 0.25, value_of(at.noise(1, 0.9, 6)) + 0.5 * at.kept(0.2) * value_of(at.noise(5, 5, 7)) +
+  const N grain = at.fine_noise(0.06, 17, 20, 5) + 0.7 * at.fine_noise(0.025, 41, 45, 11);
+  const double blotch = smooth(-0.10, 0.25, value_of(at.noise(1, 0.9, 6)) + 0.5 * value_of(at.fine_noise(0.2, 5, 5, 7)) +
                                                 0.35 * value_of(grain));
   BarkTexel<N> out;
   const N height = 0.80 + 0.13 * wrinkle + 0.20 * swell + 0.045 * grain + 0.30 * pore;
@@ -102,7 +104,7 @@ BarkTexel<N> smooth_skin(const BarkLattice<N>& at, double) {
   out.height = std::clamp(0.92 + 0.07 * value_of(wrinkle), 0.0, 1.0);
   const double p = value_of(pore);
   const double shade = 1 + 0.30 * (blotch - 0.5) + 0.24 * value_of(wrinkle) + 0.20 * value_of(grain) +
-                       0.22 * at.kept(0.3) * value_of(at.noise(4, 0.5, 8));
+                       0.22 * value_of(at.fine_noise(0.3, 4, 0.5, 8));
   out.outer = (1 - 0.85 * p) * shade;
   out.inner = 0.85 * p;
   out.warm = (1 - p) * (1.0 * value_of(at.noise(1, 0.5, 9)) - 0.4 * (blotch - 0.5));
@@ -113,10 +115,10 @@ BarkTexel<N> smooth_skin(const BarkLattice<N>& at, double) {
 /// White paper with dark bands, that peels in thin curls.
 template <BarkNumber N>
 BarkTexel<N> birch(const BarkLattice<N>& at, double) {
-  const N ragged = at.kept(0.03) * at.noise(22, 8, 1);
+  const N ragged = at.fine_noise(0.03, 22, 8, 1);
   const N band = at.pores(at.x, 0.7 * at.y + 0.05 * ragged, 0.40, 0.46, 0.09, 0.05, 2);
   const N dash = at.pores(6.0 * at.x, 1.7 * at.y + 0.05 * ragged, 0.38, 0.42, 0.09, 0.03, 3, 6);
-  const N sheet = at.noise(1, 0.8, 4) + 0.25 * at.kept(0.08) * at.noise(6, 2, 5) + 0.10 * ragged;
+  const N sheet = at.noise(1, 0.8, 4) + 0.25 * at.fine_noise(0.08, 6, 2, 5) + 0.10 * ragged;
   // A sheet that has come off shows the young, warmer one below, and throws up its rim.
   const N peeled = at.faded(smooth(0.24, 0.27, sheet), 0.04, 0.08);
   const N rim = peeled * smooth(0.34, 0.25, sheet);
@@ -126,7 +128,7 @@ BarkTexel<N> birch(const BarkLattice<N>& at, double) {
   out.relief = 0.018 * at.width * (height - 1.0);
   out.height = std::clamp(0.95 - 0.25 * value_of(mark), 0.0, 1.0);
   const double m = value_of(mark), p = value_of(peeled), r = value_of(rim);
-  const double streak = at.kept(0.02) * value_of(at.noise(5, 12, 6));
+  const double streak = value_of(at.fine_noise(0.02, 5, 12, 6));
   out.outer = (1 - 0.92 * m) * (1 + 0.12 * value_of(sheet) + 0.10 * streak - 0.12 * p - 0.1 * r + 0.2 * value_of(at.noise(1, 0.1, 7)));
   out.inner = 0.92 * m;
   out.warm = (1 - m) * (0.9 * p + 0.3 * value_of(sheet));
@@ -189,8 +191,8 @@ template <BarkNumber N>
 BarkTexel<N> at_octave(BarkStyle style, const BarkPatternKind& kind, double octave, const N& u, const N& v, double footprint,
                        double open) {
   const Growth growth = growth_of(style);
-  const double radius = std::exp2(octave + 0.5), girth = 2 * std::numbers::pi * radius;
-  const double wanted = growth.width * kind.scale * std::pow(radius / kUsualRadius, growth.power);
+  const double girth = 2 * std::numbers::pi * std::numbers::sqrt2 * std::ldexp(1.0, static_cast<int>(octave));   // in the octave's middle
+  const double wanted = growth.width * kind.scale * std::exp2(growth.power * (octave + 0.5 - kUsualOctave));
   const double columns = std::clamp(std::round(girth / wanted), 4.0, 4096.0), width = girth / columns;
   const double near = 1 - smooth(0.25, 1.0, footprint / width);
   const BarkTexel<double> mean = mean_texel(style, open);
