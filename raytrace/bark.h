@@ -44,7 +44,8 @@ struct BarkLook {
 };
 
 /// What covers a surface point, blended over contributing primitives, then wood on cut faces, dark folds on ridges and grey wood in
-/// scars. Thread safe. footprint: metres on the surface that one pixel covers; finer detail fades to its mean.
+/// scars. Thread safe. footprint: metres on the surface that one pixel covers, at grazing angles its longer side; finer detail fades to
+/// its mean.
 /// Blending is sum w_i a_i / sum w_i with w_i = f_i^3: where it is f_i, the grains of two barks are seen through each other over the
 /// whole collar of a branch, which Galbraith et al. (2004, 3.6) call slightly unnatural; cubed they meet in a band.
 class Bark {

@@ -10,6 +10,8 @@ namespace {
 
 // Rays that leave a surface start this far off it: far above the root's 1e-6, far below what an eye sees.
 constexpr double kOffsetRadii = 3e-4;
+// A pixel is drawn out over bark that is seen at a grazing angle, but not without end.
+constexpr double kLeastFacing = 0.06;
 constexpr double kFullHaze = 0.995;
 constexpr int kCatcherRays = 4;      // to the sky, for each sample of a shadow that no smoothing will see
 constexpr int kSureBounces = 3;      // before chance may end a path
@@ -53,8 +55,8 @@ PathTracer::Vertex PathTracer::bark_vertex(Walk& walk, const Ray& ray, const Sur
   const double steepness = glm::length(gradient);
   Vec3 normal = steepness > 0 ? -gradient / steepness : -ray.direction;
   const bool fine = seen && options_.relief;
-  const BarkLook look = fine ? bark_.look(walk.evaluator, field, p, normal, footprint)
-                             : bark_.glance(walk.evaluator, field, p, footprint);
+  const double covered = footprint / std::max(kLeastFacing, -glm::dot(normal, ray.direction));
+  const BarkLook look = fine ? bark_.look(walk.evaluator, field, p, normal, covered) : bark_.glance(walk.evaluator, field, p, covered);
   if (seen) {
     seen->normal = normal;
     seen->position = p;
