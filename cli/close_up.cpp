@@ -8,7 +8,7 @@
 namespace cambium {
 namespace {
 
-constexpr double kFramedRadii = 3;   // to each side
+constexpr double kFramedRadii = 3;      // to each side
 constexpr double kAlongTheBranch = 1;   // from the pivot to the middle of the picture, in the same radii
 
 const BranchInfo& info_of(const NamedBranch& branch, std::span<const BranchInfo> branches) {
@@ -36,7 +36,8 @@ void aim_at_branches(RenderRecipe& render, const Field& field, std::span<const B
   const BranchInfo& branch = info_of(*render.close_up, branches);
   const double radius = radius_at(field, branch.pivot);
   if (!(radius > 0)) {
-    throw InputError(render.close_up->at, fmt::format("branch {}, whose beginning is cut away", render.close_up->id), "a branch that is there");
+    throw InputError(render.close_up->at, fmt::format("branch {}, whose beginning is cut away", render.close_up->id),
+                     "a branch that is there");
   }
   const Vec3 middle = branch.pivot + kAlongTheBranch * radius * branch.axis;
   render.camera.frame = Box{middle, middle}.padded(kFramedRadii * radius);

@@ -73,6 +73,9 @@ void declare(CLI::App& app, CommandLine& line) {
   render->add_option("--bounces", line.bounces,
                      "surfaces that light may touch on its way to the one seen; 0: sun, sky and lamps alone; 1 by default");
   render->add_option("--crop", line.crop, "x0,y0,x1,y1: only these pixels of the whole picture, the last not included");
+  render->add_option("--close-up", line.close_up, "of where this branch leaves its parent; cambium info lists the branches");
+  render->add_option("--turntable", line.turntable, "so many pictures around the tree: tree.0001.png and on")->check(CLI::Range(1, 9999));
+  render->add_option("--frame", line.frame, "only this picture of the turntable, from 1")->check(CLI::Range(1, 9999));
   render->add_option("--bits", line.bits, "of each channel of a .png: 8 or 16")->check(CLI::IsMember({8, 16}));
   render->add_option("--aov", line.aovs,
                      "auxiliary images, a list or all: " + aov_names() + "; layers of an .exr, files beside a .png")

@@ -33,6 +33,8 @@ struct CommandLine {
   std::string samples, crop;                 ///< render
   std::optional<double> noise;               ///< render
   std::optional<int> bounces;                ///< render
+  std::optional<std::uint32_t> close_up;     ///< render: a branch
+  std::optional<int> turntable, frame;       ///< render: how many pictures around the tree, and the only one of them, from 1
   int bits = 8;                              ///< render
   std::vector<std::string> aovs;             ///< render
 };

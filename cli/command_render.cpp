@@ -1,14 +1,16 @@
 // render: a still of the field, with its auxiliary images.
 #include <fmt/format.h>
 
-#include <memory>
+#include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "cli/close_up.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
-#include "cli/output_file.h"
+#include "cli/picture_files.h"
 #include "cli/recipe_render.h"
 #include "cli/units.h"
 #include "raytrace/film.h"
@@ -55,47 +57,32 @@ RenderOptions render_options(const Job& job) {
   return options;
 }
 
-/// The files of one picture: itself, and beside a PNG its auxiliary images: tree.png has tree.depth.png.
-class PictureFiles {
- public:
-  PictureFiles(const std::filesystem::path& path, const ImageFormat& format, const std::set<Aov>& aovs)
-      : format_(format), image_(path) {
-    if (format.extension != ".png") return;
-    for (const Aov aov : aovs) {
-      std::filesystem::path beside = path;
-      beside.replace_extension(std::string(".") + info_of(aov).name + path.extension().string());
-      beside_.push_back({aov, beside, std::make_unique<OutputFile>(beside)});
-    }
-  }
-
-  void write(const Film& film) {
-    write_image(film, image_.temporary(), format_);
-    for (const Beside& aov : beside_) write_aov(film, aov.file->temporary(), aov.aov);
-  }
-
-  void commit() {
-    for (const Beside& aov : beside_) aov.file->commit();
-    image_.commit();
-  }
-
-  /// Their names by what they show; empty for an EXR.
-  Json names_beside() const {
-    Json names = Json::object();
-    for (const Beside& aov : beside_) names[info_of(aov.aov).name] = aov.path.string();
-    return names;
-  }
-
- private:
-  struct Beside {
-    Aov aov;
-    std::filesystem::path path;
-    std::unique_ptr<OutputFile> file;
-  };
-
-  ImageFormat format_;
-  OutputFile image_;
-  std::vector<Beside> beside_;
+/// One picture of those that a command line asks for.
+struct Picture {
+  std::filesystem::path path;
+  std::optional<Turntable> turn;
 };
+
+/// tree.png has tree.0001.png to tree.0036.png for 36 frames.
+std::filesystem::path path_of_frame(std::filesystem::path path, int number) {
+  return path.replace_extension(fmt::format(".{:04}{}", number, path.extension().string()));
+}
+
+/// One, those of a turntable, or a single frame of it.
+std::vector<Picture> pictures_of(const CommandLine& line) {
+  if (!line.turntable) {
+    if (line.frame) throw InputError({"--frame"}, fmt::format("frame {} without a turntable", *line.frame), "--turntable N beside it");
+    return {{line.output, {}}};
+  }
+  const int frames = *line.turntable;
+  if (line.frame && *line.frame > frames) {
+    throw InputError({"--frame"}, fmt::format("frame {}", *line.frame), fmt::format("1 to {}", frames));
+  }
+  std::vector<Picture> pictures;
+  for (int number = line.frame.value_or(1); number <= line.frame.value_or(frames); ++number)
+    pictures.push_back({path_of_frame(line.output, number), Turntable{number - 1, frames}});
+  return pictures;
+}
 
 void report(Job& job, const Rendered& rendered) {
   const RenderReport& report = rendered.report;
@@ -109,7 +96,7 @@ void report(Job& job, const Rendered& rendered) {
   job.figures.add_seconds("render_develop", report.seconds_develop);
 }
 
-/// Renders and writes one picture. Interrupted after its first pass it is still written.
+/// Renders and writes one picture. Interrupted after its first pass it is still written, and job.warnings says so.
 Outcome make_picture(Job& job, const Renderer& renderer, const RenderOptions& options, PictureFiles& files) {
   const auto rendered = [&] {
     const StageTimer timer(job.figures, "render");
@@ -121,7 +108,7 @@ Outcome make_picture(Job& job, const Renderer& renderer, const RenderOptions& op
   files.commit();
   report(job, *rendered);
   if (!rendered->interrupted) return Outcome::kDone;
-  job.warnings.push_back(fmt::format("{} holds the last finished pass: up to {} of {} samples a pixel", job.line.output,
+  job.warnings.push_back(fmt::format("{} holds the last finished pass: up to {} of {} samples a pixel", files.path().string(),
                                      rendered->report.samples, options.sampling.max));
   return Outcome::kInterrupted;
 }
@@ -131,11 +118,13 @@ Outcome make_picture(Job& job, const Renderer& renderer, const RenderOptions& op
 Outcome run_render(Job& job) {
   const ImageFormat format{require_extension(job.line.output, {".png", ".exr"}), job.line.bits};
   RenderOptions options = render_options(job);
-  PictureFiles files(job.line.output, format, options.aovs);
+  const std::vector<Picture> pictures = pictures_of(job.line);
+  std::optional<PictureFiles> files(std::in_place, pictures.front().path, format, options.aovs);   // so that a bad path fails now
   const auto built = build_tree(job);
   if (!built || job.run.cancelled()) return Outcome::kInterrupted;
   const Field field = compile_field(job, built->tree);
   job.figures.set("primitives", field.atom_count());
+  if (job.line.close_up) job.recipe.render.close_up = NamedBranch{*job.line.close_up, {"--close-up"}};
   aim_at_branches(job.recipe.render, field, built->branches);
   options.camera = job.recipe.render.camera;
   const auto renderer = [&] {
@@ -143,9 +132,17 @@ Outcome run_render(Job& job) {
     return Renderer::make(field, job.run);
   }();
   if (!renderer) return Outcome::kInterrupted;
-  const Outcome outcome = make_picture(job, *renderer, options, files);
-  if (const Json names = files.names_beside(); !names.empty()) job.figures.set("aovs", names);
-  return outcome;
+  Json written = Json::array();
+  for (const Picture& picture : pictures) {
+    if (!files) files.emplace(picture.path, format, options.aovs);
+    options.camera.turntable = picture.turn;
+    if (make_picture(job, *renderer, options, *files) == Outcome::kInterrupted) return Outcome::kInterrupted;
+    if (const Json names = files->names_beside(); !names.empty()) job.figures.set("aovs", names);
+    written.push_back(picture.path.string());
+    files.reset();
+  }
+  if (job.line.turntable) job.figures.set("frames", written);
+  return Outcome::kDone;
 }
 
 }  // namespace cambium

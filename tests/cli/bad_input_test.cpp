@@ -173,6 +173,9 @@ TEST_F(BadInput, OptionsAreNamed) {
     expect_refused({"render", input, "-o", at("a.png"), "--crop", crop}, std::string("--crop: found the crop ") + crop + ",");
   expect_refused({"render", input, "-o", at("a.png"), "--bits", "12"}, "cambium: ");
   expect_refused({"render", input, "-o", at("a.png"), "--aov", "depth,beauty"}, "--aov: found 'beauty'");
+  expect_refused({"render", input, "-o", at("a.png"), "--frame", "2"}, "--frame: found frame 2 without a turntable");
+  expect_refused({"render", input, "-o", at("a.png"), "--turntable", "3", "--frame", "4"}, "--frame: found frame 4, expected 1 to 3");
+  expect_refused({"render", input, "-o", at("a.png"), "--close-up", "7"}, "--close-up: found branch 7");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--voxel", "0"}, "--voxel: ");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--voxel", "-2mm"}, "--voxel: ");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--tolerance", "nan"}, "--tolerance: ");

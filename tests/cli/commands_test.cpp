@@ -241,6 +241,28 @@ TEST_F(Commands, RenderMakesAPartOfThePicture) {
   EXPECT_TRUE(folder_.has("a.cryptomatte.png"));
 }
 
+TEST_F(Commands, RenderWalksAroundTheTreeAndMakesOneFrameOfThatAlone) {
+  const std::vector<std::string> base = {"render", at("tiny.tree.toml"), "-o", at("turn.png"), "--size", "12x16", "--samples", "1"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), base.begin(), base.end());
+    return more;
+  };
+  const Json json = figures(with({"--turntable", "3"}));
+  EXPECT_EQ(json["frames"].size(), 3u);
+  EXPECT_FALSE(folder_.has("turn.png"));
+  const std::string first = folder_.read("turn.0001.png"), second = folder_.read("turn.0002.png");
+  EXPECT_NE(first, second);
+  EXPECT_TRUE(folder_.has("turn.0003.png"));
+  EXPECT_EQ(figures(with({"--turntable", "3", "--frame", "2", "--set", "render.samples=1"}))["frames"].size(), 1u);
+  EXPECT_EQ(folder_.read("turn.0002.png"), second);
+}
+
+TEST_F(Commands, RenderComesCloseToABranch) {
+  figures({"render", at("tiny.skel.json"), "-o", at("far.png"), "--size", "12x16", "--samples", "1"});
+  figures({"render", at("tiny.skel.json"), "-o", at("near.png"), "--size", "12x16", "--samples", "1", "--close-up", "1"});
+  EXPECT_NE(folder_.read("far.png"), folder_.read("near.png"));
+}
+
 TEST_F(Commands, InfoListsBranchesAndBounds) {
   const Json json = figures({"info", at("tiny.skel.json")});
   EXPECT_EQ(json["axes"], 2);
