@@ -167,6 +167,7 @@ TEST_F(BadInput, OptionsAreNamed) {
   for (const char* samples : {"0..4", "8..4", "1..", "..4", "1...4", "65536", "four"})
     expect_refused({"render", input, "-o", at("a.png"), "--samples", samples}, std::string("--samples: found '") + samples + "'");
   expect_refused({"render", input, "-o", at("a.png"), "--noise", "2"}, "--noise: found 2,");
+  expect_refused({"render", input, "-o", at("a.png"), "--bounces", "-1"}, "--bounces: found -1,");
   for (const char* crop : {"0,0,8", "0,0,8,8,8", "a,0,8,8", "0,-1,8,8", ","})
     expect_refused({"render", input, "-o", at("a.png"), "--crop", crop}, std::string("--crop: found '") + crop + "'");
   for (const char* crop : {"0,0,769,8", "8,8,8,9", "9,8,8,9"})

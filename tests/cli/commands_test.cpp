@@ -233,7 +233,7 @@ TEST_F(Commands, RenderWritesImagesAndAovs) {
 
 TEST_F(Commands, RenderMakesAPartOfThePicture) {
   const Json json = figures({"render", at("tiny.tree.toml"), "-o", at("a.png"), "--crop", "4,8,20,31", "--samples", "1..4", "--noise",
-                             "0.01", "--bits", "16", "--aov", "all"});
+                             "0.01", "--bounces", "0", "--bits", "16", "--aov", "all"});
   EXPECT_EQ(json["width"], 16);
   EXPECT_EQ(json["height"], 23);
   EXPECT_EQ(json["samples"], 4);
