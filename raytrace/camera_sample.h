@@ -8,9 +8,9 @@ namespace cambium {
 /// One camera sample. Its light is direct + albedo * ambient; they are kept apart so that the noise of the few sky rays can be
 /// smoothed without touching texture or the sun's shadow edges.
 struct CameraSample {
-  Vec3 direct{0.0};        ///< sun, and the sky where nothing was hit
-  Vec3 ambient{0.0};       ///< light from sky and surroundings, not yet multiplied by albedo
-  Vec3 albedo{0.0};
+  Vec3 direct{0.0};        ///< by sun and lamps, and the sky where nothing was hit
+  Vec3 ambient{0.0};       ///< by sky and other surfaces, not yet multiplied by albedo
+  Vec3 albedo{0.0};        ///< share of even light around that goes to the camera: the colour, with what a coat mirrors
   Vec3 normal{0.0};        ///< geometric, world; zero on a miss
   Vec3 position{0.0};      ///< world, metres; zero on a miss
   glm::dvec2 uv{0.0};      ///< the covering primitive's own coordinates: turns round it, metres along it
