@@ -1,5 +1,6 @@
 #include "raytrace/lights.h"
 
+#include "blobtree/input_error.h"
 #include "raytrace/directions.h"
 #include "raytrace/tone.h"
 
@@ -18,12 +19,19 @@ double area_of(const AreaLight& light) {
   return light.shape == AreaLight::Shape::kRectangle ? light.width * light.height : kPi * light.radius * light.radius;
 }
 
+const AreaLight& checked(const AreaLight& light) {
+  const bool extended = light.shape == AreaLight::Shape::kRectangle ? light.width > 0 && light.height > 0 : light.radius > 0;
+  if (!extended) throw InputError({}, "a lamp without extent", "sides or a radius greater than 0");
+  if (!(glm::length(light.direction) > 0)) throw InputError({}, "a lamp without direction", "a direction that is not zero");
+  return light;
+}
+
 /// Of a cap of the unit sphere whose rim has this sine; exact for small ones, too.
 double cap_solid_angle(double sine_squared) { return 2 * kPi * sine_squared / (1 + std::sqrt(std::max(0.0, 1 - sine_squared))); }
 
 }  // namespace
 
-Lamp::Lamp(const AreaLight& light) : light_(light), normal_(glm::normalize(light.direction)), area_(area_of(light)) {
+Lamp::Lamp(const AreaLight& light) : light_(checked(light)), normal_(glm::normalize(light.direction)), area_(area_of(light)) {
   const Vec3 level = glm::cross(Vec3(0, 0, 1), normal_);
   across_ = glm::length(level) > 1e-9 ? glm::normalize(level) : Vec3(1, 0, 0);
   along_ = glm::cross(normal_, across_);
@@ -96,7 +104,10 @@ std::optional<LightSample> Lamp::met_sphere(const Ray& ray) const {
 Lights::Lights(const Light& light)
     : light_(light), daylight_(light.turbidity, direction_of(light.sun_azimuth, light.sun_elevation)),
       sun_(direction_of(light.sun_azimuth, light.sun_elevation)) {
-  if (light.sky == SkyKind::kEnvironment) environment_ = light.environment.get();
+  if (light.sky == SkyKind::kEnvironment) {
+    if (!light.environment) throw InputError({}, "an environment without image", "an image of the surroundings");
+    environment_ = light.environment.get();
+  }
   for (const AreaLight& lamp : light.area) lamps_.emplace_back(lamp);
   const double size = std::clamp(light.sun_size, 0.0, kWidestSun);
   const auto [s, t] = tangents(sun_);

@@ -15,6 +15,7 @@ namespace cambium {
 /// One lamp, ready for sampling.
 class Lamp {
  public:
+  /// Errors: InputError for one without extent or direction.
   explicit Lamp(const AreaLight& light);
 
   /// A point of it, seen from `from`: evenly by area, of a sphere by solid angle. pdf 0 where it turns its back.
@@ -38,6 +39,7 @@ inline double mis_weight(double pdf, double other) { return pdf > 0 ? pdf * pdf 
 
 class Lights {
  public:
+  /// Errors: InputError for an environment without image, and Lamp's.
   explicit Lights(const Light& light);
 
   /// Whether the sun adds any light.

@@ -1,9 +1,11 @@
 #include "raytrace/path_tracer.h"
 
+#include "blobtree/input_error.h"
 #include "raytrace/tone.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace cambium {
 namespace {
@@ -20,6 +22,17 @@ constexpr double kBounceFootprint = 0.3;   // of a bounce's length: what one of 
 /// How much of the light around the bark's relief lets in: a crack's floor sees less of it than the plates at its sides.
 double open_share(const BarkLook& look) { return 0.45 + 0.55 * look.height; }
 
+const PathOptions& checked(const PathOptions& options) {
+  if (options.bounces < 0 || options.bounces > kMostBounces) {
+    throw InputError({}, std::to_string(options.bounces) + " bounces", "0 to " + std::to_string(kMostBounces));
+  }
+  if (!(options.clamp > 0)) throw InputError({}, "a clamp of " + std::to_string(options.clamp), "more than 0");
+  if (!(options.occlusion_distance > 0)) {
+    throw InputError({}, "an occlusion distance of " + std::to_string(options.occlusion_distance), "more than 0 metres");
+  }
+  return options;
+}
+
 Vec3 bounded(const Vec3& light, double most) {
   const double bright = luminance(light);
   return bright > most ? light * (most / bright) : light;
@@ -30,7 +43,8 @@ Vec3 bounded(const Vec3& light, double most) {
 PathTracer::PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground,
                        double pixel_angle, const PathOptions& options)
     : tracer_(tracer), bark_(bark), lights_(light), ground_color_(light.ground_color), catcher_(light.catcher),
-      transparent_(light.backdrop == Backdrop::kTransparent), ground_(ground), pixel_angle_(pixel_angle), options_(options) {}
+      transparent_(light.backdrop == Backdrop::kTransparent), ground_(ground), pixel_angle_(pixel_angle),
+      options_(checked(options)) {}
 
 PathTracer::Met PathTracer::meet(Walk& walk, const Ray& ray) const {
   ++walk.rays;

@@ -17,7 +17,8 @@ namespace cambium {
 /// Thread safe; each thread brings its own Evaluator. A pure function of its arguments.
 class PathTracer {
  public:
-  /// The arguments before `ground` must outlive it. pixel_angle: radians.
+  /// The tracer, the bark and an environment must outlive it. pixel_angle: radians. Errors: InputError for options out of range,
+  /// and those of Lights.
   PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground, double pixel_angle,
              const PathOptions& options = {});
 

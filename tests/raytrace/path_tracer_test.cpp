@@ -1,5 +1,6 @@
 #include "raytrace/path_tracer.h"
 
+#include "blobtree/input_error.h"
 #include "raytrace/directions.h"
 #include "raytrace/tone.h"
 #include "tests/raytrace/scenes.h"
@@ -235,6 +236,24 @@ TEST(PathTracer, AClampBoundsWhatOneSampleBringsFromAround) {
   const Ray ray{{-3, 0.1, 1}, {1, 0, 0}};
   EXPECT_GT(luminance(open.mean(ray, 256).color), 30);
   EXPECT_LE(luminance(clamped.mean(ray, 256).color), 4.001);   // light samples and rays, each
+}
+
+TEST(PathTracer, RefusesOptionsOutOfRange) {
+  const auto refuses = [](const Light& light, const PathOptions& options) {
+    EXPECT_THROW(Studio(scenes::trunk(), light, options), InputError);
+  };
+  refuses({}, {.bounces = -1});
+  refuses({}, {.bounces = kMostBounces + 1});
+  refuses({}, {.occlusion_distance = 0});
+  refuses({}, {.clamp = 0});
+  Light light;
+  light.sky = SkyKind::kEnvironment;
+  refuses(light, {});
+  light = {};
+  light.area = {AreaLight{.width = 0}};
+  refuses(light, {});
+  light.area = {AreaLight{.direction = Vec3(0.0)}};
+  refuses(light, {});
 }
 
 TEST(PathTracer, SaysWhatItHit) {
