@@ -177,7 +177,8 @@ BarkTexel<double> mean_texel(BarkStyle style, double open) {
   static const auto table = [] {
     std::array<std::array<BarkTexel<double>, kSteps + 1>, 4> means;
     for (std::size_t s = 0; s < means.size(); ++s)
-      for (int k = 0; k <= kSteps; ++k) means[s][static_cast<std::size_t>(k)] = averaged(static_cast<BarkStyle>(s), std::max(1e-3, double(k) / kSteps));
+      for (std::size_t k = 0; k <= kSteps; ++k)
+        means[s][k] = averaged(static_cast<BarkStyle>(s), std::max(1e-3, static_cast<double>(k) / kSteps));
     return means;
   }();
   const double at = std::clamp(open, 0.0, 1.0) * kSteps;
@@ -198,9 +199,9 @@ BarkTexel<N> at_octave(BarkStyle style, const BarkPatternKind& kind, double octa
   const BarkTexel<double> mean = mean_texel(style, open);
   const BarkTexel<N> far{N(mean.relief * width), mean.height, mean.outer, mean.inner, mean.warm, mean.roughness, 0};
   if (!(near > 0)) return far;
-  const BarkLattice<N> at{u * columns, v * (1 / (width * growth.elongation)), width, growth.elongation, static_cast<std::uint32_t>(columns),
-                          static_cast<std::uint32_t>(hash_of(kind.seed, static_cast<std::uint64_t>(octave + 1024), static_cast<std::uint64_t>(style))),
-                          footprint};
+  const std::uint64_t seed = hash_of(kind.seed, static_cast<std::uint64_t>(octave + 1024), static_cast<std::uint64_t>(style));
+  const BarkLattice<N> at{u * columns, v * (1 / (width * growth.elongation)), width, growth.elongation,
+                          static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(seed), footprint};
   const BarkTexel<N> texel = styled(style, at, open);
   return near < 1 ? mixed_texels(far, texel, near) : texel;
 }
