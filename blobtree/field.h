@@ -71,6 +71,7 @@ class PrunedField {
   friend class SurfaceCover;
   friend class CoverRun;
   friend class CellSearch;
+  friend class ActiveChain;
   friend class LoneChain;
   PrunedField(const CompiledTree& tree, const Tape& tape, std::shared_ptr<const void> owner, const Box& box);
   const CompiledTree* tree_ = nullptr;

@@ -5,22 +5,32 @@
 
 namespace cambium {
 
+ActiveChain::ActiveChain(const CompiledTree& tree, const Tape& tape, std::size_t instruction) {
+  const Instruction& in = tape.instructions()[instruction];
+  const CompiledNode& node = tree.nodes[in.node];
+  const CompiledChain& chain = tree.chains[node.payload];
+  primitive_ = in.node;
+  branch_ = tree.leaf_of(node).branch;
+  order_ = tree.leaf_of(node).order;
+  first_atom_ = node.first_atom;
+  nodes_ = std::span(tree.chain_nodes).subspan(chain.first_node, chain.node_count);
+  atoms_ = tape.slots().subspan(in.first, in.count);
+}
+
+void ActiveChain::append(const PrunedField& field, std::vector<ActiveChain>& chains) {
+  if (field.empty()) return;
+  const auto instructions = field.tape_->instructions();
+  for (std::size_t i = 0; i < instructions.size(); ++i) {
+    if (instructions[i].op == Op::kChain && instructions[i].frame == 0) chains.push_back(ActiveChain(*field.tree_, *field.tape_, i));
+  }
+}
+
 std::optional<LoneChain> LoneChain::of(const PrunedField& field) {
   if (field.empty() || field.tape_->instructions().size() != 1) return std::nullopt;
   const Instruction& in = field.tape_->instructions().front();
   if (in.op != Op::kChain || in.frame != 0) return std::nullopt;
-  const CompiledTree& tree = *field.tree_;
-  const CompiledNode& node = tree.nodes[in.node];
-  const CompiledChain& chain = tree.chains[node.payload];
-  if (chain.strength != 1) return std::nullopt;
-  LoneChain lone;
-  lone.primitive_ = in.node;
-  lone.branch_ = tree.leaf_of(node).branch;
-  lone.order_ = tree.leaf_of(node).order;
-  lone.first_atom_ = node.first_atom;
-  lone.nodes_ = std::span(tree.chain_nodes).subspan(chain.first_node, chain.node_count);
-  lone.atoms_ = field.tape_->slots().subspan(in.first, in.count);
-  return lone;
+  if (field.tree_->chains[field.tree_->nodes[in.node].payload].strength != 1) return std::nullopt;
+  return LoneChain(*field.tree_, *field.tape_, 0);
 }
 
 }  // namespace cambium

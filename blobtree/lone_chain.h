@@ -9,14 +9,17 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace cambium {
 
-/// A view: valid while the field it is of (or its cover) lives. Cheap to copy.
-class LoneChain {
+class Tape;
+
+/// A chain that is active in a pruned field, in world space. A view: valid while the field (or its cover) lives. Cheap to copy.
+class ActiveChain {
  public:
-  /// nullopt where anything else is active, the chain is warped, or its strength is not 1. Cost: constant.
-  static std::optional<LoneChain> of(const PrunedField& field);
+  /// Appends all that are, lone or not, but for warped ones. Cost: linear in the tape.
+  static void append(const PrunedField& field, std::vector<ActiveChain>& chains);
 
   std::uint32_t primitive() const { return primitive_; }   ///< as Contribution::primitive
   std::uint32_t branch() const { return branch_; }
@@ -24,7 +27,7 @@ class LoneChain {
   /// All nodes of the chain, root to tip, in world space; at least two. Node k of one chain is the same in all its cells.
   std::span<const ChainNode> nodes() const { return nodes_; }
 
-  /// Those of its segments that are active here: the surface in the cell is that of their union.
+  /// Those of its segments that are active here.
   std::size_t segment_count() const { return atoms_.size(); }
   /// The k-th: it lies between nodes()[number] and nodes()[number + 1]. Ascending, perhaps with gaps.
   std::uint32_t segment_number(std::size_t k) const { return atoms_[k] - first_atom_; }
@@ -33,11 +36,23 @@ class LoneChain {
     return {nodes_[number], nodes_[number + 1]};
   }
 
+ protected:
+  ActiveChain(const CompiledTree& tree, const Tape& tape, std::size_t instruction);
+
  private:
-  LoneChain() = default;
   std::uint32_t primitive_ = 0, branch_ = 0, order_ = 0, first_atom_ = 0;
   std::span<const ChainNode> nodes_;
   std::span<const std::uint32_t> atoms_;
+};
+
+/// The surface in the cell is that of the union of the segments.
+class LoneChain : public ActiveChain {
+ public:
+  /// nullopt where anything else is active, the chain is warped, or its strength is not 1. Cost: constant.
+  static std::optional<LoneChain> of(const PrunedField& field);
+
+ private:
+  using ActiveChain::ActiveChain;
 };
 
 }  // namespace cambium
