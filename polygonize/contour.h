@@ -13,11 +13,12 @@ struct Crossing {
   glm::vec3 normal{0.0f};      ///< unit, outward; zero where the field has no gradient
 };
 
-/// One cycle on the boundary of one leaf.
+/// One cycle on the boundary of one leaf, or part of one that ends beside nothing (a tube).
 struct Patch {
   static constexpr std::uint32_t kDead = 0xffffffffu;
   std::uint32_t leaf = 0;
   std::uint32_t first_edge = 0, edge_count = 0;   ///< in Contour::rings
+  bool open = false;           ///< the surface ends here
   bool alive() const { return leaf != kDead; }
 };
 

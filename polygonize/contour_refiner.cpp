@@ -211,7 +211,7 @@ void ContourRefiner::replace_patches(const LeafEdges& around, const LeafCycles& 
   append_numbers(unplaced_patches_, patches_before, first_patch.back());
   auto at = static_cast<std::uint32_t>(rings_before);
   for (std::size_t k = 0; k < cycles.lengths.size(); ++k) {
-    contour_.patches[patches_before + k] = {Patch::kDead, at, cycles.lengths[k]};
+    contour_.patches[patches_before + k] = {Patch::kDead, at, cycles.lengths[k], cycles.open[k] != 0};
     at += cycles.lengths[k];
   }
   for_each_below(count, [&](std::size_t i) {

@@ -156,7 +156,9 @@ class PolygonBuilder {
   void place_face(const PrunedField& field, Evaluator& evaluator, ChoiceEvaluator& choices, FaceVertex& vertex) const {
     const MinimalEdge& edge = edges_[vertex.edge];
     const Face face = face_between(tree_, edge, EdgeFrame(tree_, edge), vertex.q, vertex.next);
-    const Vec3 p = crossing_point(vertex.edge), r = crossing_point(vertex.other_edge);
+    const Vec3 p = crossing_point(vertex.edge);
+    const bool open = vertex.other_edge == vertex.edge;
+    const Vec3 r = open ? other_crossing(field, evaluator, face, p) : crossing_point(vertex.other_edge);
     const auto inside = [&](double margin) {
       Box within = face.box;
       for (int k = 1; k < 3; ++k) {
@@ -190,6 +192,33 @@ class PolygonBuilder {
       if (!(glm::length(step) < face.edge)) return;
       vertex.position = glm::clamp(vertex.position + step, within.lo, within.hi);
     }
+  }
+
+  /// Where the surface, which enters a face at p, leaves it through another side, beside nothing; p if there is no such place or several.
+  Vec3 other_crossing(const PrunedField& field, Evaluator& evaluator, const Face& face, const Vec3& p) const {
+    constexpr int kHalvings = 12;
+    const int b = (face.axis + 1) % 3, c = (face.axis + 2) % 3;
+    const auto inside = [&](const Vec3& at) { return evaluator.value(field, at) >= kIso; };
+    const auto corner = [&](int k) {   // around the face
+      Vec3 at = face.box.lo;
+      if (k % 4 == 1 || k % 4 == 2) at[b] = face.box.hi[b];
+      if (k % 4 >= 2) at[c] = face.box.hi[c];
+      return at;
+    };
+    std::optional<Vec3> found;
+    for (int k = 0; k < 4; ++k) {
+      Vec3 in = corner(k), out = corner(k + 1);
+      const int across = k % 2 == 0 ? c : b;   // of this side
+      if (inside(in) == inside(out) || std::abs(p[across] - in[across]) < 1e-6 * face.edge) continue;
+      if (found) return p;
+      if (!inside(in)) std::swap(in, out);
+      for (int step = 0; step < kHalvings; ++step) {
+        const Vec3 middle = (in + out) / 2.0;
+        (inside(middle) ? in : out) = middle;
+      }
+      found = (in + out) / 2.0;
+    }
+    return found.value_or(p);
   }
 
   Vec3 crossing_point(std::uint32_t edge) const { return cambium::crossing_point(tree_, contour_, edge); }

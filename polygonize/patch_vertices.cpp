@@ -73,7 +73,9 @@ class VertexPlacer {
       mass += crossing_point(e) - placed.box.lo;
       normals += contour_.crossings[e].normal;
     }
-    placed.at = clamp_into(placed.box.lo + mass / static_cast<double>(patch.edge_count), placed.box, kVertexMargin * placed.edge);
+    placed.at = patch.open ? placed.box.lo + middle_of_crossed(leaf) * placed.edge
+                           : placed.box.lo + mass / static_cast<double>(patch.edge_count);
+    placed.at = clamp_into(placed.at, placed.box, kVertexMargin * placed.edge);
     const float length = glm::length(normals);
     if (length > 1e-3f) placed.mean_normal = normals / length;
     for (const std::uint32_t e : contour_.ring(placed.patch)) {
@@ -82,6 +84,21 @@ class VertexPlacer {
     placed.best = placed.at;
     placed.best_distance = static_cast<float>(kInfinity);
     placed_.push_back(placed);
+  }
+
+  /// In the leaf's own unit cube, as its corners tell: of an open patch not all crossings are known.
+  static Vec3 middle_of_crossed(const OctreeLeaf& leaf) {
+    Vec3 sum(0.0);
+    int count = 0;
+    for (int e = 0; e < 12; ++e) {
+      if (!edge_crossed(leaf.mask, e)) continue;
+      const int corner = edge_low_corner(e);
+      Vec3 middle(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      middle[e / 4] += 0.5;
+      sum += middle;
+      ++count;
+    }
+    return count > 0 ? sum / static_cast<double>(count) : Vec3(0.5);
   }
 
   // Newton steps along the gradient until each vertex lies on the surface; the best place visited counts.

@@ -8,6 +8,7 @@
 #include "polygonize/mesh_components.h"
 #include "polygonize/patch_polygons.h"
 #include "polygonize/thinnest_radius.h"
+#include "polygonize/tube_mesh.h"
 #include "polygonize/unseen_surface.h"
 #include "polygonize/vertex_balance.h"
 
@@ -42,6 +43,7 @@ struct Plan {
   int finer = 0;
   double tolerance = 0;   // infinite where cells are given
   double crumb = 0;       // see drop_small_components
+  std::optional<TubeRule> tubes;
 };
 
 Plan make_plan(const Field& field, const PolygonizeOptions& options) {
@@ -61,6 +63,7 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
   plan.tolerance = options.tolerance.value_or(std::max(across / 20000, std::isfinite(thinnest) ? thinnest / 8 : across / 1000));
   double sides = options.min_sides;
   if (options.preview) plan.tolerance *= 16, sides = std::min(sides, 4.0);
+  plan.tubes = TubeRule{plan.tolerance, sides};
   plan.crumb = std::min(plan.tolerance, thinnest);
   plan.leaves.radii = std::min(kCellsAround / sides, kWhole);
   plan.leaves.sagitta = kSagitta * plan.tolerance;
@@ -100,9 +103,10 @@ struct Contoured {
 };
 
 // Contours, measures, and cuts the leaves of polygons that are off, until none is.
-std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& plan, PolygonizeReport& report, const RunOptions& run) {
+std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& plan, const TubeRuns& tubes, PolygonizeReport& report,
+                                       const RunOptions& run) {
   ProgressMeter progress(run, "contouring");
-  auto tree = SurfaceOctree::build(cover, plan.finer, plan.leaves, run);
+  auto tree = SurfaceOctree::build(cover, plan.finer, plan.leaves, run, &tubes);
   if (!tree) return std::nullopt;
   if (std::isfinite(plan.tolerance) && !show_unseen_surface(*tree, cover, report.unseen, run)) return std::nullopt;
   progress.add(0.3);
@@ -138,6 +142,37 @@ std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& pl
   return Contoured{std::move(made), std::move(compact), std::move(positions), std::move(splits)};
 }
 
+/// What was contoured, with its mesh, closed by tubes.
+struct Built {
+  Contoured contoured;
+  DualMesh polygons;
+};
+
+// A run whose ends turn out not to be simple is contoured after all: rare, and so not worth more than to begin again without it.
+std::optional<Built> build_mesh(const SurfaceCover& cover, const Plan& plan, PolygonizeReport& report, const RunOptions& run) {
+  auto tubes = plan.tubes ? TubeRuns::find(cover, plan.leaves, *plan.tubes, run) : TubeRuns{};
+  if (!tubes) return std::nullopt;
+  for (;;) {
+    report = {};
+    auto made = contour_field(cover, plan, *tubes, report, run);
+    if (!made) return std::nullopt;
+    ProgressMeter progress(run, "joining polygons");
+    auto polygons = build_polygons(made->tree, cover, made->contour, made->positions, made->splits, plan.tolerance, run);
+    if (!polygons) return std::nullopt;
+    progress.finish();
+    if (tubes->size() > 0) {
+      const auto added = add_tubes(made->tree, cover, made->contour, *tubes, plan.tolerance, *polygons, run);
+      if (!added) return std::nullopt;
+      report.largest_error = std::max(report.largest_error, added->largest_error);
+      if (!added->failed.empty()) {
+        tubes->remove(added->failed);
+        continue;
+      }
+    }
+    return Built{*std::move(made), *std::move(polygons)};
+  }
+}
+
 void report_cells(const Contoured& made, PolygonizeReport& report) {
   const std::vector<Patch>& patches = made.contour.patches;
   report.cells = patches.size();
@@ -165,25 +200,20 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   const Plan plan = make_plan(field, options);
   const auto cover = cover_surface(field, plan.cover, run);
   if (!cover) return std::nullopt;
-  const auto made = contour_field(*cover, plan, result.report, run);
-  if (!made) return std::nullopt;
-  ProgressMeter progress(run, "joining polygons");
-  auto built = build_polygons(made->tree, *cover, made->contour, made->positions, made->splits, plan.tolerance, run);
+  auto built = build_mesh(*cover, plan, result.report, run);
   if (!built) return std::nullopt;
-  progress.add(0.7);
-  result.mesh = std::move(built->mesh);
+  result.mesh = std::move(built->polygons.mesh);
   PolygonizeReport& report = result.report;
   if (!options.voxel) report.tolerance = plan.tolerance;
-  report_cells(*made, report);
-  report.face_vertices = built->face_vertices;
-  report.edge_vertices = built->edge_vertices;
-  const double thin = std::max(made->tree.narrow(), report.smallest_cell);   // wider ones are no cracks: their walls count
+  report_cells(built->contoured, report);
+  report.face_vertices = built->polygons.face_vertices;
+  report.edge_vertices = built->polygons.edge_vertices;
+  const double thin = std::max(built->contoured.tree.narrow(), report.smallest_cell);   // wider ones are no cracks: their walls count
   const auto components = drop_small_components(result.mesh, thin, plan.crumb, run);
   if (!components) return std::nullopt;
   report.components = components->components;
   report.closed_voids = components->closed_voids;
   report.crumbs = components->crumbs;
-  progress.finish();
   return result;
 }
 

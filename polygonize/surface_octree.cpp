@@ -4,6 +4,7 @@
 #include "blobtree/input_error.h"
 #include "polygonize/field_batch.h"
 #include "polygonize/marks.h"
+#include "polygonize/tube_runs.h"
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -63,7 +64,8 @@ class SurfaceOctree::Sampler {
   /// It is cut `cuts` times (at most kMostCuts), and parts with a crossing further, until they are on level `wanted`.
   Node cut(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level, int cuts,
            int wanted, bool merge, Subtree& subtree) {
-    merge_ = merge, wanted_ = wanted;
+    merge_ = merge, wanted_ = wanted, grid_ = &tree.grid_;
+    tubes_ = tubes_in(tree, field);
     sample(tree, field, cell, place, level - cuts, cuts);
     // Parts in the order of the octree: the children of each node together.
     std::vector<Unfinished> unfinished;
@@ -79,7 +81,30 @@ class SurfaceOctree::Sampler {
     return root;
   }
 
+  /// The same for a cell of the cover that is to be cut down to level `wanted`: what belongs to tubes is not sampled.
+  Node cut_beside_tubes(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level,
+                        int wanted, Subtree& subtree) {
+    const auto tubes = tubes_in(tree, field);
+    const auto share = tubes.none() ? TubeRuns::Share::kNone : tubes.share(tree.grid_.box(place, level));
+    if (share == TubeRuns::Share::kAll) return {};
+    if (share == TubeRuns::Share::kNone || level <= wanted) {
+      return cut(tree, field, cell, place, level, std::min(level - wanted, kMostCuts), wanted, true, subtree);
+    }
+    const auto first = static_cast<std::uint32_t>(subtree.nodes.size());
+    subtree.nodes.resize(first + 8);
+    for (int c = 0; c < 8; ++c) {
+      const CellPlace child = offset(place, c & 1, c >> 1 & 1, c >> 2, level - 1);
+      const Node made = cut_beside_tubes(tree, field, cell, child, level - 1, wanted, subtree);
+      subtree.nodes[first + static_cast<std::uint32_t>(c)] = made;
+    }
+    return {first};
+  }
+
  private:
+  static TubeRuns::InCell tubes_in(const SurfaceOctree& tree, const PrunedField& field) {
+    return tree.tubes_ ? tree.tubes_->in(field) : TubeRuns::InCell{};
+  }
+
   /// A leaf that is to be cut further, and the node that holds it.
   struct Unfinished {
     std::uint32_t leaf = 0, slot = 0;
@@ -240,6 +265,7 @@ class SurfaceOctree::Sampler {
   Node descend(std::uint32_t cell, const CellPlace& place, int level, const std::array<int, 3>& part, int cuts, std::uint32_t slot,
                Subtree& subtree, std::vector<Unfinished>& unfinished) {
     if (cuts == 0) {
+      if (level <= wanted_ && !tubes_.none() && tubes_.holds(grid_->box(place, level).center())) return {};
       OctreeLeaf leaf{cell, place, static_cast<std::uint8_t>(level), 0};
       for (int c = 0; c < 8; ++c) {
         leaf.mask |= static_cast<std::uint8_t>(inside_[at(part[0] + (c & 1), part[1] + (c >> 1 & 1), part[2] + (c >> 2))] << c);
@@ -284,6 +310,8 @@ class SurfaceOctree::Sampler {
   static constexpr float kFarthest = 0.5f;   // below kIso: where nothing is
   Evaluator evaluator_;
   FieldBatch crack_;
+  const CellGrid* grid_ = nullptr;
+  TubeRuns::InCell tubes_;
   bool merge_ = true;
   int wanted_ = 0;
   int parts_ = 0, side_ = 0;
@@ -339,7 +367,8 @@ SurfaceOctree::Node SurfaceOctree::join(const SurfaceCover& cover, const std::ve
   return {first};
 }
 
-std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int finer, const LeafRule& rule, const RunOptions& run) {
+std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int finer, const LeafRule& rule, const RunOptions& run,
+                                                  const TubeRuns* tubes) {
   SurfaceOctree tree;
   tree.grid_ = cover.grid();
   tree.grid_.cell = std::ldexp(tree.grid_.cell, -finer);
@@ -348,6 +377,7 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
   tree.finer_ = finer;
   tree.rule_ = rule;
   tree.cover_ = &cover;
+  tree.tubes_ = tubes;
   std::vector<Subtree> subtrees(cover.size());
   std::atomic<std::size_t> so_far{0};
   tbb::enumerable_thread_specific<Sampler> samplers;
@@ -360,9 +390,8 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
     for (std::uint32_t& along : place) along <<= finer;
     int wanted_level = level;
     while (wanted_level > 0 && std::ldexp(tree.grid_.cell, wanted_level) > wanted) --wanted_level;
-    const int cuts = std::min(level - wanted_level, kMostCuts);
     subtrees[i].roots.push_back(
-        samplers.local().cut(tree, field, static_cast<std::uint32_t>(i), place, level, cuts, wanted_level, true, subtrees[i]));
+        samplers.local().cut_beside_tubes(tree, field, static_cast<std::uint32_t>(i), place, level, wanted_level, subtrees[i]));
     so_far += subtrees[i].leaves.size();
   });
   if (run.cancelled()) return std::nullopt;

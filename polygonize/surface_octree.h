@@ -32,9 +32,11 @@ struct LeafRule {
   double edge(double radius) const;
 };
 
+class TubeRuns;
+
 class SurfaceOctree {
  public:
-  /// A node: nothing (no surface in it or on its boundary), a leaf, or eight children.
+  /// A node: nothing (no surface in it or on its boundary, or only that of a run of tubes), a leaf, or eight children.
   struct Node {
     std::uint32_t word = kVoid;
     static constexpr std::uint32_t kVoid = 0xffffffffu, kLeafBit = 0x80000000u;
@@ -46,8 +48,10 @@ class SurfaceOctree {
 
   /// nullopt if cancelled. Corners are decided in double wherever a float batch could be mistaken, and a pruned field equals the
   /// whole one exactly, so neighbours never disagree. Cost: the leaves' corners, in dense batches. The same at any thread count.
-  /// Units are the cover's level-0 cells halved `finer` times.
-  static std::optional<SurfaceOctree> build(const SurfaceCover& cover, int finer, const LeafRule& rule, const RunOptions& run);
+  /// Units are the cover's level-0 cells halved `finer` times. Where `tubes` (which outlive the octree's last cut) run there is nothing:
+  /// no polygon is around an edge that touches what is not there, so the surface stays open.
+  static std::optional<SurfaceOctree> build(const SurfaceCover& cover, int finer, const LeafRule& rule, const RunOptions& run,
+                                            const TubeRuns* tubes = nullptr);
 
   Node root() const { return root_; }
   int root_level() const { return grid_.levels; }
@@ -95,6 +99,7 @@ class SurfaceOctree {
   Node join(const SurfaceCover& cover, const std::vector<Node>& roots, std::size_t begin, std::size_t end, int level);
 
   const SurfaceCover* cover_ = nullptr;   // while it is being sampled
+  const TubeRuns* tubes_ = nullptr;
   CellGrid grid_;
   int finer_ = 0;
   LeafRule rule_;

@@ -40,6 +40,16 @@ std::uint64_t key_of(std::uint32_t leaf, std::uint32_t other) {
   return std::uint64_t{std::min(leaf, other)} << 32 | std::max(leaf, other);
 }
 
+struct Cycles {
+  std::vector<std::uint32_t> order, lengths;
+  std::vector<std::uint8_t> open;
+  std::size_t cycle_of(std::uint32_t edge) const {
+    std::size_t at = static_cast<std::size_t>(std::find(order.begin(), order.end(), edge) - order.begin()), cycle = 0;
+    while (at >= lengths[cycle]) at -= lengths[cycle++];
+    return cycle;
+  }
+};
+
 class LeafTracer {
  public:
   LeafTracer(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges) : tree_(tree), edges_(edges) {}
@@ -47,23 +57,13 @@ class LeafTracer {
   std::vector<ManyLines> faces;   ///< met on the way
   const RelinkedFaces* relinked = nullptr;
 
-  /// Appends the cycles' edges in order to `order`, and how many each has to `lengths`.
-  void trace(std::uint32_t leaf, std::span<const std::uint32_t> edges, std::vector<std::uint32_t>& order,
-             std::vector<std::uint32_t>& lengths) {
+  /// Appends the leaf's cycles. What is open is followed from an end, the rest is closed then.
+  void trace(std::uint32_t leaf, std::span<const std::uint32_t> edges, Cycles& out) {
     link(leaf, edges);
-    for (std::uint32_t i = 0; i < incidents_.size(); ++i) {
-      if (incidents_[i].visited) continue;
-      std::uint32_t length = 0, at = i, from = kNone;
-      do {
-        incidents_[at].visited = true;
-        order.push_back(incidents_[at].edge);
-        ++length;
-        const auto& next = incidents_[at].next;
-        const std::uint32_t to = next[0] != from ? next[0] : next[1];
-        from = at, at = to;
-      } while (at != kNone && !incidents_[at].visited);
-      lengths.push_back(length);
-    }
+    for (const bool open : {true, false})
+      for (std::uint32_t i = 0; i < incidents_.size(); ++i) {
+        if (!incidents_[i].visited && (!open || incidents_[i].next[1] == kNone)) follow(i, open, out);
+      }
   }
 
   /// Two crossings of one face are joined by the surface's line across it.
@@ -79,7 +79,7 @@ class LeafTracer {
       while (end < sides_.size() && sides_[end].first == sides_[begin].first) ++end;
       if (end - begin == 2) {
         join(sides_[begin].second, sides_[begin + 1].second);
-      } else {
+      } else if (end - begin > 2) {   // else the line's other end is beside nothing
         link_many(leaf, sides_[begin].first, begin, end);
       }
       begin = end;
@@ -87,6 +87,20 @@ class LeafTracer {
   }
 
  private:
+  void follow(std::uint32_t first, bool open, Cycles& out) {
+    std::uint32_t length = 0, at = first, from = kNone;
+    do {
+      incidents_[at].visited = true;
+      out.order.push_back(incidents_[at].edge);
+      ++length;
+      const auto& next = incidents_[at].next;
+      const std::uint32_t to = next[0] != from ? next[0] : next[1];
+      from = at, at = to;
+    } while (at != kNone && !incidents_[at].visited);
+    out.lengths.push_back(length);
+    out.open.push_back(open);
+  }
+
   void join(std::uint32_t i, std::uint32_t j) {
     auto& a = incidents_[i].next;
     auto& b = incidents_[j].next;
@@ -110,8 +124,9 @@ class LeafTracer {
     std::sort(around_.begin(), around_.end());
     ManyLines face;
     for (std::size_t i = 0; i < around_.size(); ++i) {
-      if (!around_[i].enters) continue;
-      const std::uint32_t from = around_[i].incident, to = around_[(i + 1) % around_.size()].incident;
+      const Around& next = around_[(i + 1) % around_.size()];
+      if (!around_[i].enters || next.enters) continue;   // as above
+      const std::uint32_t from = around_[i].incident, to = next.incident;
       join(from, to);
       face.lines.push_back({incidents_[from].edge, incidents_[to].edge});
     }
@@ -181,15 +196,6 @@ class LeafTracer {
   std::vector<Around> around_;
 };
 
-struct Cycles {
-  std::vector<std::uint32_t> order, lengths;
-  std::size_t cycle_of(std::uint32_t edge) const {
-    std::size_t at = static_cast<std::size_t>(std::find(order.begin(), order.end(), edge) - order.begin()), cycle = 0;
-    while (at >= lengths[cycle]) at -= lengths[cycle++];
-    return cycle;
-  }
-};
-
 constexpr std::size_t kLeavesPerTask = 2048;
 
 std::size_t place_of(const LeafEdges& around, std::uint32_t leaf) {
@@ -207,8 +213,8 @@ bool settle(ManyLines& face, const LeafEdges& around, LeafTracer& tracer, Relink
   for (std::size_t cuts = 0; again && cuts < face.lines.size(); ++cuts) {   // each makes a cycle more, and there are no more than lines
     again = false;
     Cycles here, there;
-    tracer.trace(face.leaf, around.of(place_of(around, face.leaf)), here.order, here.lengths);
-    tracer.trace(face.other, around.of(place_of(around, face.other)), there.order, there.lengths);
+    tracer.trace(face.leaf, around.of(place_of(around, face.leaf)), here);
+    tracer.trace(face.other, around.of(place_of(around, face.other)), there);
     tracer.faces.clear();
     for (std::size_t i = 0; i < face.lines.size() && !again; ++i) {
       for (std::size_t j = i + 1; j < face.lines.size() && !again; ++j) {
@@ -254,12 +260,11 @@ LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge
   const auto trace = [&](LeafTracer& tracer, std::size_t begin, std::size_t end, Traced& out) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t before = out.cycles.lengths.size();
-      tracer.trace(around.leaves[i], around.of(i), out.cycles.order, out.cycles.lengths);
+      tracer.trace(around.leaves[i], around.of(i), out.cycles);
       out.counts.push_back(static_cast<std::uint32_t>(out.cycles.lengths.size() - before));
-      const auto first = out.cycles.lengths.begin() + static_cast<std::ptrdiff_t>(before);
-      if (std::any_of(first, out.cycles.lengths.end(), [](std::uint32_t length) { return length < 3; })) {
-        out.to_split.push_back(around.leaves[i]);
-      }
+      bool too_short = false;
+      for (std::size_t k = before; k < out.cycles.lengths.size(); ++k) too_short |= !out.cycles.open[k] && out.cycles.lengths[k] < 3;
+      if (too_short) out.to_split.push_back(around.leaves[i]);
     }
   };
   auto traced = in_chunks<Traced>(around.leaves.size(), kLeavesPerTask, [&](Traced& out, std::size_t begin, std::size_t end) {
@@ -297,6 +302,7 @@ LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge
   gather([](Traced& part) -> auto& { return part.counts; }, result.counts);
   gather([](Traced& part) -> auto& { return part.cycles.order; }, result.edges);
   gather([](Traced& part) -> auto& { return part.cycles.lengths; }, result.lengths);
+  for (Traced& part : traced) result.open.insert(result.open.end(), part.cycles.open.begin(), part.cycles.open.end());
   gather([](Traced& part) -> auto& { return part.to_split; }, result.to_split);
   return result;
 }

@@ -31,6 +31,7 @@ struct LeafCycles {
   std::vector<std::uint32_t> counts;        ///< of cycles, by place in LeafEdges::leaves
   std::vector<std::uint32_t> lengths;       ///< of cycles
   std::vector<std::uint32_t> edges;         ///< of the cycles, each in order
+  std::vector<std::uint8_t> open;           ///< by cycle: only a part of one, from one end to the other
   std::vector<std::uint32_t> to_split;      ///< leaves with a cycle of two edges only, ascending
 };
 
@@ -42,7 +43,7 @@ std::vector<std::uint32_t> leaves_across_many_lines(const SurfaceOctree& tree, c
 /// The cycles of the leaves listed, which have none across many lines. A face that the surface crosses in several lines keeps its inside corners apart; where two of
 /// its lines would then join the same two cycles, they are linked the other way, which parts both cycles, and so never joins
 /// others twice. Every edge of the mesh dual to the cycles is then in two polygons and every vertex in one fan, whatever the
-/// signs are, unless to_split tells of leaves. Cost: linear in the edges.
+/// signs are (but where cycles are open, beside nothing), unless to_split tells of leaves. Cost: linear in the edges.
 LeafCycles trace_cycles(const SurfaceOctree& tree, const std::vector<MinimalEdge>& edges, const LeafEdges& around,
                         RelinkedFaces& relinked);
 
