@@ -32,7 +32,8 @@ bool in_circle(const Point& a, const Point& b, const Point& c, const Point& d) {
 /// The annulus cut open along a chord: a simple polygon.
 class OpenedAnnulus {
  public:
-  OpenedAnnulus(const std::vector<Point>& lower, const std::vector<Point>& upper, double girth) : line_points_(lower.size() + upper.size()) {
+  OpenedAnnulus(const std::vector<Point>& lower, const std::vector<Point>& upper, double girth) 
+      : girth_(girth), lower_(lower.size()), line_points_(lower.size() + upper.size()) {
     const auto highest = static_cast<std::size_t>(
         std::max_element(lower.begin(), lower.end(), [](const Point& a, const Point& b) { return a.y < b.y; }) - lower.begin());
     // From the highest point nothing is in the way of a chord upwards.
@@ -76,6 +77,12 @@ class OpenedAnnulus {
       for (std::size_t j = i + 2; j < n; ++j) {
         if (i == 0 && j + 1 == n) continue;
         if (cross(points_[i], points_[i + 1], points_[j], points_[(j + 1) % n])) return false;
+      }
+    const Point around(girth_, 0);   // where the lower line leans beyond the chord it meets its next turn
+    for (std::size_t i = 0; i < lower_; ++i)
+      for (std::size_t j = 0; j < lower_; ++j) {
+        const bool neighbours = i + 1 == lower_ && j == 0;
+        if (!neighbours && cross(points_[i], points_[i + 1], points_[j] + around, points_[j + 1] + around)) return false;
       }
     return true;
   }
@@ -128,11 +135,20 @@ class OpenedAnnulus {
     });
   }
 
+  /// Sides of the polygon stay.
+  bool is_side(std::uint32_t a, std::uint32_t b) const {
+    const std::uint32_t n = static_cast<std::uint32_t>(line_points_) + 2, apart = a < b ? b - a : a - b;
+    return a < n && b < n && (apart == 1 || apart == n - 1);
+  }
+
+  // Not beside a side that is worse: points would pile up along it.
   bool halve_worst(const ChordExcess& excess) {
     double most = 1;
     Triangle worst{};
-    find_chord([&](std::size_t, std::size_t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t) {
-      if (const double here = excess(points_[a], points_[b]); here > most) most = here, worst = {a, b, c};
+    find_chord([&](std::size_t, std::size_t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+      const double here = excess(points_[a], points_[b]);
+      const auto worse = [&](std::uint32_t i, std::uint32_t j) { return is_side(i, j) && excess(points_[i], points_[j]) >= here; };
+      if (here > most && !worse(b, c) && !worse(c, a) && !worse(a, d) && !worse(d, b)) most = here, worst = {a, b, c};
       return false;
     });
     if (!(most > 1)) return false;
@@ -164,7 +180,8 @@ class OpenedAnnulus {
   }
 
   static constexpr std::size_t kMostAdded = 4;   // for every point of the lines
-  std::size_t line_points_;
+  double girth_;
+  std::size_t lower_, line_points_;
   std::vector<Point> points_;
   std::vector<std::uint32_t> names_;
   std::vector<Triangle> triangles_;

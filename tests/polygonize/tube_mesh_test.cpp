@@ -38,7 +38,7 @@ void expect_as_promised(const Field& field, const Mesh& mesh, double tolerance) 
   EXPECT_TRUE(found->topology.closed_manifold());
   EXPECT_EQ(found->self_intersections, 0u);
   EXPECT_EQ(found->topology.components, 1u);
-  for (const DistanceFigures& way : {found->mesh_to_surface, found->surface_to_mesh}) {
+  for (const DistanceFigures& way : {found->mesh_to_surface, found->open_surface_to_mesh}) {
     EXPECT_GE(way.within, 0.999);
     EXPECT_EQ(way.within_twice, 1);
   }

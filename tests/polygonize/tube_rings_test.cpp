@@ -55,7 +55,9 @@ TEST(TubeRings, ThereAreAsManySidesAsTheToleranceAsksFor) {
     const double bow = path.radius(ring.at) * (1 - std::cos(3.14159265 / ring.sides));
     EXPECT_LE(bow, 0.00091);
   }
-  for (const TubeRing& ring : plan_rings(path, {0.2, 4.8}, {0.1, 30})[0]) EXPECT_GE(ring.sides, 30u);
+  const auto round = plan_rings(path, {0.2, 4.8}, {0.1, 30});
+  ASSERT_EQ(round.size(), 1u);
+  for (const TubeRing& ring : round[0]) EXPECT_GE(ring.sides, 30u);
 }
 
 TEST(TubeRings, WallsAroundABendStayWithinTheTolerance) {
