@@ -82,6 +82,23 @@ TEST(LoneChain, IsNoneUnderAWarp) {
   EXPECT_FALSE(LoneChain::of(field.whole()));
 }
 
+TEST(ActiveChain, AllOfACellAreListedButWarpedOnes) {
+  const Field field = forked();
+  std::vector<ActiveChain> chains;
+  ActiveChain::append(field.prune({{0.05, -0.05, 1.0}, {0.15, 0.05, 1.1}}), chains);
+  ASSERT_EQ(chains.size(), 2u);
+  EXPECT_EQ(chains[0].branch(), 7u);
+  EXPECT_EQ(chains[0].segment_number(0), 0u);
+  EXPECT_EQ(chains[1].branch(), 8u);
+  EXPECT_EQ(chains[1].nodes().size(), 2u);
+  ActiveChain::append(field.prune({{5, 5, 5}, {6, 6, 6}}), chains);
+  EXPECT_EQ(chains.size(), 2u);
+  BlobTreeBuilder b;
+  const Field warped(b.build(b.add(Twist{{0, 0, 0}, {0, 0, 1}, 1.0, b.add(kTrunk)})));
+  ActiveChain::append(warped.whole(), chains);
+  EXPECT_EQ(chains.size(), 2u);
+}
+
 TEST(LoneChain, ItsSegmentsSweepTheSurfaceOfEveryCellItIsIn) {
   const Field field = forked();
   CoverOptions options;
