@@ -15,5 +15,7 @@ void poplar_section(Report& report, const Pace& pace);
 void trees_section(Report& report, const Pace& pace);
 /// Our mesher against OpenVDB's at equal error. Takes minutes, and some gigabytes for OpenVDB's.
 void mesher_section(Report& report, const Pace& pace);
+/// Rays at the field against Embree's own curves. Takes half a minute.
+void rays_section(Report& report, const Pace& pace);
 
 }  // namespace cambium::bench

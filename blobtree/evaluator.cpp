@@ -43,39 +43,6 @@ class BallPolicy {
   const GatheredShapes& shapes_;
 };
 
-/// One of eight balls in a row, over which the bounds of segments are known.
-class RowPolicy {
- public:
-  RowPolicy(const TapeView& view, const GatheredShapes& shapes, const std::vector<BallBounds>& row, std::size_t at,
-            const Ball& ball)
-      : view_(view), shapes_(shapes), row_(row), at_(at), ball_(ball) {}
-
-  Interval primitive(const Instruction& in) const {
-    return primitive_interval(shapes_.primitive(static_cast<std::size_t>(&in - view_.tape.instructions().data())), ball_);
-  }
-  Interval half_space(const Instruction& in) const {
-    return half_space_interval(view_.tree.half_spaces[view_.tree.nodes[in.node].payload], ball_);
-  }
-  Interval chain(const Instruction& in) const {
-    Interval ratio{kInfinity, kInfinity};
-    for (std::uint32_t i = in.first; i < in.first + in.count; ++i) {
-      ratio = {std::min(ratio.lo, row_[i].lo[at_]), std::min(ratio.hi, row_[i].hi[at_])};
-    }
-    return chain_interval(ratio, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
-  }
-  Interval lateral_weight(const Lateral& lateral, const Instruction&) const {
-    return lateral_contact_weight_interval(lateral, ball_);
-  }
-  Interval warp(const Instruction&, const Interval& f) const { return f; }
-
- private:
-  const TapeView& view_;
-  const GatheredShapes& shapes_;
-  const std::vector<BallBounds>& row_;
-  std::size_t at_;
-  const Ball& ball_;
-};
-
 /// A point, with how its surface came about.
 class TraitsPolicy {
  public:
@@ -170,38 +137,6 @@ Interval Evaluator::Scratch::interval(const CompiledTree& tree, const Tape& tape
   for (std::size_t k = 1; k < balls.size(); ++k) balls[k] = unwarp(tape_view.warp_of(k), balls[tape_view.outside_of(k)].ball);
   BallPolicy policy(tape_view, balls, shapes);
   return a_hair_wider(run_tape(tape_view, policy, intervals));
-}
-
-int Evaluator::outside_along(const PrunedField& field, const Vec3& from, const Vec3& to) {
-  static_assert(kStretches == kBalls);
-  if (field.empty()) return kStretches;
-  const Vec3 step = (to - from) / double(kStretches);
-  Ball ball{from + 0.5 * step, 0.5 * glm::length(step)};
-  ball.radius += 1e-12 * ball.radius + 1e-15 * (glm::length(from) + glm::length(to));
-  const TapeView view = Scratch::view(field);
-  if (!view.tape.frames().empty()) {   // warped balls differ in size
-    int count = 0;
-    for (; count < kStretches && interval(field, ball).hi < kIso; ++count) ball.center += step;
-    return count;
-  }
-  Scratch& s = *scratch_;
-  s.shapes.gather(view.tree, *field.tape_);
-  BallCenters centers;
-  for (std::size_t k = 0; k < kBalls; ++k)
-    for (int a = 0; a < 3; ++a) centers[a][k] = ball.center[a] + static_cast<double>(k) * step[a];
-  s.row.resize(view.tape.slots().size());
-  for (const Instruction& in : view.tape.instructions()) {
-    if (in.op != Op::kChain) continue;
-    bound_swept_ratios(s.shapes.segments() + in.first, in.count, centers, ball.radius, s.row.data() + in.first);
-  }
-  int count = 0;
-  for (; count < kStretches; ++count) {
-    const auto k = static_cast<std::size_t>(count);
-    ball.center = {centers[0][k], centers[1][k], centers[2][k]};
-    RowPolicy policy(view, s.shapes, s.row, k, ball);
-    if (!(a_hair_wider(run_tape(view, policy, s.intervals)).hi < kIso)) break;
-  }
-  return count;
 }
 
 void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vector<Contribution>& out) {

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "blobtree/batch.h"
+#include "blobtree/course.h"
 #include "blobtree/field.h"
 #include "blobtree/interpreter.h"
 #include "blobtree/surface_traits.h"
-#include "blobtree/swept_bounds.h"
 
 #include <cstddef>
 #include <optional>
@@ -56,11 +56,14 @@ struct Evaluator::Scratch {
   GatheredShapes shapes;
   std::vector<Vec3> points;                 ///< the query point in each frame, frame 0 first
   std::vector<UnwarpedBall> balls;
-  std::vector<BallBounds> row;              ///< of segments, by slot
   TapeScratch<double> numbers;
   TapeScratch<Dual<double>> duals;
   TapeScratch<Interval> intervals;
   TapeScratch<TraitedValue> traits;
+  TapeScratch<Course> courses;
+  std::vector<Way> ways;                    ///< the way in each frame
+  std::vector<SeenSegment> seen;            ///< of one chain
+  std::vector<SquaredRatio> ratios;         ///< of those of them that count
   BatchScratch batch;
 
   static TapeView view(const PrunedField& field) { return {*field.tree_, *field.tape_}; }

@@ -24,6 +24,12 @@ struct Sample {
   Vec3 gradient{0.0};
 };
 
+/// Bounds of the field along a straight way: of its values, and of its slope, which is its derivative by metres of the way. Across
+/// creases too f(b) - f(a) is between (b - a) slope.lo and (b - a) slope.hi. Default: of nothing, which is 0.
+struct Course {
+  Interval value, slope;
+};
+
 /// What one primitive contributes at a point (field.md section 7): weight f_i > 0 and its native coordinates.
 struct Contribution {
   double weight = 0;
@@ -128,11 +134,10 @@ class Evaluator {
   /// Conservative over the part of the ball inside field.box().
   Interval interval(const PrunedField& field, const Ball& ball);
   Interval interval(const PrunedField& field, const Box& box);
-  /// How much of a straight way is certainly outside: of kStretches equal stretches of it, the number of leading ones in which
-  /// the interval stays below kIso. The way must lie in field.box(). Cost: about that of two intervals, where none is
-  /// warped.
-  int outside_along(const PrunedField& field, const Vec3& from, const Vec3& to);
-  static constexpr int kStretches = 8;
+  /// Bounds along the straight way from middle - half direction to middle + half direction, which lies in field.box(); direction
+  /// is a unit vector. As the way gets shorter the slopes close in on each other in proportion, but for creases, and under a
+  /// bend, twist or taper, where they stay apart. Cost: about that of one interval.
+  Course course(const PrunedField& field, const Vec3& middle, const Vec3& direction, double half);
 
   /// Batches: SoA floats relative to field.origin(), equal lengths. Agree with value()/sample() to 1e-4.
   void values(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,

@@ -4,6 +4,33 @@
 #include "blobtree/tape.h"
 
 namespace cambium {
+namespace {
+
+/// Never below the largest child nor above the sum of children that are not negative (for contact: h(f) <= f, field.md section 4).
+bool is_blend(Op op) {
+  switch (op) {
+    case Op::kSum:
+    case Op::kUnion:
+    case Op::kRicci:
+    case Op::kContact:
+    case Op::kFork: return true;
+    case Op::kPrimitive:
+    case Op::kHalfSpace:
+    case Op::kChain:
+    case Op::kIntersection:
+    case Op::kDifference:
+    case Op::kScale:
+    case Op::kWarp: return false;
+  }
+  return false;
+}
+
+/// A chain as it is authored: not in a warp's space, and of strength 1.
+bool is_plain_chain(const CompiledTree& tree, const Instruction& in) {
+  return in.op == Op::kChain && in.frame == 0 && tree.chains[tree.nodes[in.node].payload].strength == 1;
+}
+
+}  // namespace
 
 ActiveChain::ActiveChain(const CompiledTree& tree, const Tape& tape, std::size_t instruction) {
   const Instruction& in = tape.instructions()[instruction];
@@ -25,11 +52,21 @@ void ActiveChain::append(const PrunedField& field, std::vector<ActiveChain>& cha
   }
 }
 
+std::vector<ActiveChain> ActiveChain::blended(const PrunedField& field) {
+  std::vector<ActiveChain> chains;
+  if (field.empty()) return chains;
+  const auto instructions = field.tape_->instructions();
+  for (std::size_t i = 0; i < instructions.size(); ++i) {
+    if (is_blend(instructions[i].op)) continue;
+    if (!is_plain_chain(*field.tree_, instructions[i])) return {};
+    chains.push_back(ActiveChain(*field.tree_, *field.tape_, i));
+  }
+  return chains;
+}
+
 std::optional<LoneChain> LoneChain::of(const PrunedField& field) {
   if (field.empty() || field.tape_->instructions().size() != 1) return std::nullopt;
-  const Instruction& in = field.tape_->instructions().front();
-  if (in.op != Op::kChain || in.frame != 0) return std::nullopt;
-  if (field.tree_->chains[field.tree_->nodes[in.node].payload].strength != 1) return std::nullopt;
+  if (!is_plain_chain(*field.tree_, field.tape_->instructions().front())) return std::nullopt;
   return LoneChain(*field.tree_, *field.tape_, 0);
 }
 

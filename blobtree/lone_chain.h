@@ -20,6 +20,10 @@ class ActiveChain {
  public:
   /// Appends all that are, lone or not, but for warped ones. Cost: linear in the tape.
   static void append(const PrunedField& field, std::vector<ActiveChain>& chains);
+  /// The chains of a field that is nowhere below the largest of them nor above their sum: all that is active are chains of strength 1,
+  /// not warped, under sums, unions, contacts, forks and Ricci blends. Where all but one are 0 the field is that one's. None if
+  /// the field is not like that. Cost: linear in the tape.
+  static std::vector<ActiveChain> blended(const PrunedField& field);
 
   std::uint32_t primitive() const { return primitive_; }   ///< as Contribution::primitive
   std::uint32_t branch() const { return branch_; }

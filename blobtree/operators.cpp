@@ -23,18 +23,20 @@ double contact_push(double f, double width, double lip) {
   return u * v * v * (1 + u * lip) * width;
 }
 
-/// Largest D(f) for f in the interval. h rises from u = 0 to one peak and falls to u = 1.
-double largest_push(const Interval& f, double width, double lip) {
+}  // namespace
+
+// h rises from u = 0 to one peak, which is at 1/3 for lip 0 and at 0.451 for lip 4, and falls to u = 1.
+double largest_contact_push(const Interval& f, double width, double lip) {
   if (f.lo >= kIso) return kIso - f.lo;
   const double lo = std::max(f.lo, kIso - width), hi = std::min(f.hi, kIso);
   if (lo > hi) return 0;
+  if (lo >= kIso - width / 3) return contact_push(lo, width, lip);
+  if (hi <= kIso - width * 0.452) return contact_push(hi, width, lip);
   const double b = 3 - 2 * lip;
   const double peak_u = lip > 1e-9 ? (-b + std::sqrt(b * b + 16 * lip)) / (8 * lip) : 1.0 / 3;
   const double peak = kIso - width * peak_u;
   return contact_push(std::clamp(peak, lo, hi), width, lip);
 }
-
-}  // namespace
 
 Interval sum_of(const Interval* f, std::size_t n) {
   Interval total = f[0];
@@ -92,8 +94,8 @@ Interval contact_of(const Interval* f, std::size_t n, bool with_zero, double wid
   }
   if (lo2 >= kIso) return {lo1, hi1};
   // The value is never below the largest child, and each child is raised by no more than the other's largest push.
-  const double pushed1 = hi1 + std::max(0.0, largest_push({lo2, hi2}, width, lip));
-  const double pushed2 = hi2 + largest_push({lo1, hi1}, width, lip);
+  const double pushed1 = hi1 + std::max(0.0, largest_contact_push({lo2, hi2}, width, lip));
+  const double pushed2 = hi2 + largest_contact_push({lo1, hi1}, width, lip);
   return widened({lo1, std::max(pushed1, pushed2)});
 }
 
@@ -119,7 +121,10 @@ Interval fork_of(const Interval& axis, const Interval* f, const Interval* weight
   if (share.hi < share.lo) return axis;
   const Interval joined = contact_of(f, n, with_zero, width, lip);
   const Interval pair[2] = {{std::max(axis.lo, 0.0), std::max(axis.hi, 0.0)}, joined};
-  const Interval touching = contact_of(pair, 2, false, width, lip);
+  return forked(axis, joined, contact_of(pair, 2, false, width, lip), share, may_be_bare);
+}
+
+Interval forked(const Interval& axis, const Interval& joined, const Interval& touching, const Interval& share, bool may_be_bare) {
   const Interval summed{axis.lo + joined.lo, axis.hi + joined.hi};
   const Interval contact{touching.lo + std::min(axis.lo, 0.0), touching.hi + std::min(axis.hi, 0.0)};
   const auto mix = [](double a, double b, double t) { return (1 - t) * a + t * b; };

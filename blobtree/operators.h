@@ -47,9 +47,13 @@ Interval min_of(const Interval* f, std::size_t n, bool with_zero);
 Interval difference_of(const Interval& first, const Interval* taken, std::size_t n, bool capped);
 Interval ricci_of(const Interval* f, std::size_t n, double exponent);
 Interval contact_of(const Interval* f, std::size_t n, bool with_zero, double width, double lip);
+/// The most that a child with such values pushes another: D(f) of field.md section 4.
+double largest_contact_push(const Interval& f, double width, double lip);
 Interval lateral_contact_weight_interval(const Lateral& lateral, const Ball& ball);
 Interval fork_of(const Interval& axis, const Interval* f, const Interval* weights, std::size_t n,
                  bool with_zero, double width, double lip);
+/// The same from its parts: the laterals joined, their contact with what of the axis is positive, and the share that counts.
+Interval forked(const Interval& axis, const Interval& joined, const Interval& touching, const Interval& share, bool may_be_bare);
 Interval scaled(const Interval& f, double factor);
 
 }  // namespace cambium

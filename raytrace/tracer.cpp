@@ -1,5 +1,7 @@
 #include "raytrace/tracer.h"
 
+#include "raytrace/chain_cells.h"
+
 #if CAMBIUM_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -14,6 +16,8 @@
 namespace cambium {
 namespace {
 
+constexpr std::size_t kMostCells = 4000000;   // beyond, the hierarchy would take more memory than it saves time
+constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr float kFloatMax = std::numeric_limits<float>::max();
 
 float below(double v) { return std::nextafter(static_cast<float>(v), -kFloatMax); }
@@ -28,20 +32,38 @@ using Context = RTCIntersectContext;
 /// What one ray carries through Embree: itself in double, the scratch of its thread, and the best hit so far.
 struct Query {
   Context context;  // first, so that Embree's pointer to it is a pointer to this
-  const Ray* ray = nullptr;
-  Evaluator* evaluator = nullptr;
+  const Ray& ray;
+  RayClipper clipper;
+  Evaluator& evaluator;
+  PlaceWanted wanted;
   double entry = 0;  // Embree's t = 0
   RaySegment segment;
-  SurfaceHit hit;
-  bool found = false;
+  double t = kInfinity;                  // of the nearest hit
+  std::uint32_t cell = kNone;          // the one it is in
+  std::uint32_t on_segment = kNone;      // set where that is a chain alone
+
+  Query(const Ray& of, Evaluator& with, PlaceWanted what) : ray(of), clipper(of), evaluator(with), wanted(what) {
+#if CAMBIUM_EMBREE_MAJOR >= 4
+    rtcInitRayQueryContext(&context);
+#else
+    rtcInitIntersectContext(&context);
+#endif
+  }
+  bool found() const { return cell != kNone; }
+
+  /// Two cells that touch can find the same point; the lower one wins, so traversal order does not show.
+  bool take(double at, std::uint32_t in_cell, std::uint32_t segment_number) {
+    if (at > t || (at == t && in_cell > cell)) return false;
+    t = at;
+    cell = in_cell;
+    on_segment = segment_number;
+    return true;
+  }
 };
 
-void init(Query& query) {
-#if CAMBIUM_EMBREE_MAJOR >= 4
-  rtcInitRayQueryContext(&query.context);
-#else
-  rtcInitIntersectContext(&query.context);
-#endif
+void set_bounds(RTCBounds& out, const Box& box) {
+  out.lower_x = below(box.lo.x), out.lower_y = below(box.lo.y), out.lower_z = below(box.lo.z);
+  out.upper_x = above(box.hi.x), out.upper_y = above(box.hi.y), out.upper_z = above(box.hi.z);
 }
 
 }  // namespace
@@ -49,26 +71,20 @@ void init(Query& query) {
 struct Tracer::Scene {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  const SurfaceCover& cells;
+  const SurfaceCover& cover;
+  ChainCells chains;
   Vec3 center{0.0};   // float coordinates are relative to this
   double pad = 0;     // covers what a ray loses by being rounded to float
 
-  Scene(const SurfaceCover& cover, const Box& bounds) : cells(cover) {
+  Scene(const SurfaceCover& cells, const Box& bounds) : cover(cells), chains(cells) {
     center = bounds.center();
     pad = 2e-6 * glm::length(bounds.size());
     device = rtcNewDevice(nullptr);
     if (!device) throw std::runtime_error("Embree could not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(cells.size()));
-    rtcSetGeometryUserData(geometry, this);
-    rtcSetGeometryBoundsFunction(geometry, bounds_of_cell, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, intersect_cell);
-    rtcSetGeometryOccludedFunction(geometry, occluded_cell);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
+    attach<ChainKind>(chains.size());
+    attach<OtherKind>(chains.others().size());
     rtcCommitScene(scene);
     const RTCError error = rtcGetDeviceError(device);
     if (error != RTC_ERROR_NONE) {
@@ -87,55 +103,85 @@ struct Tracer::Scene {
     device = nullptr;
   }
 
-  static void bounds_of_cell(const RTCBoundsFunctionArguments* args) {
+  bool search(Query& query, const PrunedField& field, const RaySegment& part, std::uint32_t cell) const {
+    if (query.wanted == PlaceWanted::kAny) {
+      return any_inside(query.evaluator, field, query.ray, part) && query.take(part.begin, cell, kNone);
+    }
+    const auto t = first_root(query.evaluator, field, query.ray, part);
+    return t && query.take(*t, cell, kNone);
+  }
+
+  /// Cells with chains only: in closed form where one is alone on the ray.
+  struct ChainKind {
+    static Box bounds(const Scene& self, unsigned k) { return self.chains.surface_bounds(k); }
+    static bool solve(const Scene& self, Query& query, unsigned k) {
+      const auto part = query.clipper.clip(self.chains.box(k), query.segment);
+      if (!part || part->begin > query.t) return false;
+      const ChainVerdict verdict = self.chains.judge(k, query.ray, *part, query.wanted);
+      if (verdict.how == ChainVerdict::How::kMiss) return false;
+      const std::uint32_t cell = self.chains.cell(k);
+      if (verdict.how == ChainVerdict::How::kHit) return query.take(verdict.t, cell, verdict.segment);
+      return self.search(query, self.cover.field(cell), verdict.part, cell) ||
+             (verdict.t < kInfinity && query.take(verdict.t, cell, kNone));
+    }
+  };
+  /// Cells with anything else: roots of the field.
+  struct OtherKind {
+    static Box bounds(const Scene& self, unsigned k) { return self.cover.box(self.chains.others()[k]); }
+    static bool solve(const Scene& self, Query& query, unsigned k) {
+      const std::uint32_t cell = self.chains.others()[k];
+      const PrunedField field = self.cover.field(cell);
+      const auto part = query.clipper.clip(field.box(), query.segment);
+      if (!part || part->begin > query.t) return false;
+      return self.search(query, field, *part, cell);
+    }
+  };
+
+  template <class Kind>
+  void attach(std::size_t count) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, bounds_of<Kind>, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, intersect_one<Kind>);
+    rtcSetGeometryOccludedFunction(geometry, occluded_by<Kind>);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  template <class Kind>
+  static void bounds_of(const RTCBoundsFunctionArguments* args) {
     const Scene& self = *static_cast<const Scene*>(args->geometryUserPtr);
-    const Box box = self.cells.box(args->primID);
-    const Vec3 lo = box.lo - self.center - self.pad, hi = box.hi - self.center + self.pad;
-    RTCBounds& out = *args->bounds_o;
-    out.lower_x = below(lo.x), out.lower_y = below(lo.y), out.lower_z = below(lo.z);
-    out.upper_x = above(hi.x), out.upper_y = above(hi.y), out.upper_z = above(hi.z);
+    const Box box = Kind::bounds(self, args->primID);
+    set_bounds(*args->bounds_o, {box.lo - self.center - self.pad, box.hi - self.center + self.pad});
   }
 
-  /// Improves query.hit by one cell.
-  static bool solve(const Scene& self, Query& query, unsigned cell) {
-    const PrunedField field = self.cells.field(cell);
-    const auto part = clip(*query.ray, field.box(), query.segment);
-    if (!part) return false;
-    const auto t = first_root(*query.evaluator, field, *query.ray, *part);
-    if (!t) return false;
-    // Two cells that touch can find the same point; the lower index wins, so traversal order does not show.
-    if (query.found && *t == query.hit.t && cell > query.hit.cell) return false;
-    query.hit = {*t, cell};
-    query.found = true;
-    query.segment.end = *t;
-    return true;
-  }
-
-  static void intersect_cell(const RTCIntersectFunctionNArguments* args) {
+  template <class Kind>
+  static void intersect_one(const RTCIntersectFunctionNArguments* args) {
     if (!args->valid[0]) return;
     Query& query = *reinterpret_cast<Query*>(args->context);
-    if (!solve(*static_cast<const Scene*>(args->geometryUserPtr), query, args->primID)) return;
-    RTCRayHit& rayhit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
     const Scene& self = *static_cast<const Scene*>(args->geometryUserPtr);
-    rayhit.ray.tfar = std::min(rayhit.ray.tfar, above(query.hit.t - query.entry + self.pad));
+    if (!Kind::solve(self, query, args->primID)) return;
+    RTCRayHit& rayhit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+    rayhit.ray.tfar = std::min(rayhit.ray.tfar, above(query.t - query.entry + self.pad));
     rayhit.hit.primID = args->primID;
     rayhit.hit.geomID = args->geomID;
   }
 
-  static void occluded_cell(const RTCOccludedFunctionNArguments* args) {
+  template <class Kind>
+  static void occluded_by(const RTCOccludedFunctionNArguments* args) {
     if (!args->valid[0]) return;
     Query& query = *reinterpret_cast<Query*>(args->context);
-    if (!solve(*static_cast<const Scene*>(args->geometryUserPtr), query, args->primID)) return;
+    if (!Kind::solve(*static_cast<const Scene*>(args->geometryUserPtr), query, args->primID)) return;
     reinterpret_cast<RTCRay*>(args->ray)->tfar = -std::numeric_limits<float>::infinity();
   }
 
   /// Embree's ray from where it enters the padded bounds. False if it passes them.
-  bool prepare(const Ray& ray, const Box& bounds, double t_end, Evaluator& evaluator, Query& query, RTCRay& out) const {
-    const auto inside = clip(ray, bounds, {0, t_end});
+  bool prepare(const Box& bounds, double t_end, Query& query, RTCRay& out) const {
+    const Ray& ray = query.ray;
+    const auto inside = query.clipper.clip(bounds, {0, t_end});
     if (!inside) return false;
-    init(query);
-    query.ray = &ray;
-    query.evaluator = &evaluator;
     query.entry = std::max(0.0, inside->begin - pad);
     query.segment = *inside;
     const Vec3 origin = ray.at(query.entry) - center;
@@ -151,7 +197,24 @@ struct Tracer::Scene {
     out.id = 0;
     return true;
   }
+
+  SurfaceHit hit_of(const Query& query) const {
+    const PrunedField field = cover.field(query.cell);
+    const Vec3 p = query.ray.at(query.t);
+    if (query.on_segment != kNone) {
+      return {query.t, query.cell, true, chains.normal(query.on_segment, p), chains.radius(query.on_segment, p)};
+    }
+    const Vec3 gradient = query.evaluator.sample(field, glm::clamp(p, field.box().lo, field.box().hi)).gradient;
+    const double steepness = glm::length(gradient);
+    return {query.t, query.cell, false, steepness > 0 ? -gradient / steepness : -query.ray.direction, radius_in(field)};
+  }
 };
+
+CoverOptions tracing_cells() {
+  CoverOptions cells;
+  cells.max_cells = kMostCells;
+  return cells;
+}
 
 Tracer::Tracer(SurfaceCover cover) : cover_(std::move(cover)) {
   for (std::size_t cell = 0; cell < cover_.size(); ++cell) bounds_.extend(cover_.box(cell));
@@ -161,9 +224,9 @@ Tracer::Tracer(SurfaceCover cover) : cover_(std::move(cover)) {
 Tracer::~Tracer() = default;
 
 std::optional<SurfaceHit> Tracer::intersect(Evaluator& evaluator, const Ray& ray) const {
-  Query query;
+  Query query(ray, evaluator, PlaceWanted::kFirst);
   RTCRayHit rayhit;
-  if (!scene_ || !scene_->prepare(ray, bounds_, kInfinity, evaluator, query, rayhit.ray)) return std::nullopt;
+  if (!scene_ || !scene_->prepare(bounds_, kInfinity, query, rayhit.ray)) return std::nullopt;
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rayhit.hit.primID = RTC_INVALID_GEOMETRY_ID;
 #if CAMBIUM_EMBREE_MAJOR >= 4
@@ -174,14 +237,14 @@ std::optional<SurfaceHit> Tracer::intersect(Evaluator& evaluator, const Ray& ray
 #else
   rtcIntersect1(scene_->scene, &query.context, &rayhit);
 #endif
-  if (!query.found) return std::nullopt;
-  return query.hit;
+  if (!query.found()) return std::nullopt;
+  return scene_->hit_of(query);
 }
 
 bool Tracer::occluded(Evaluator& evaluator, const Ray& ray, double t_end) const {
-  Query query;
+  Query query(ray, evaluator, PlaceWanted::kAny);
   RTCRay embree_ray;
-  if (!scene_ || !scene_->prepare(ray, bounds_, t_end, evaluator, query, embree_ray)) return false;
+  if (!scene_ || !scene_->prepare(bounds_, t_end, query, embree_ray)) return false;
 #if CAMBIUM_EMBREE_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
@@ -190,7 +253,7 @@ bool Tracer::occluded(Evaluator& evaluator, const Ray& ray, double t_end) const 
 #else
   rtcOccluded1(scene_->scene, &query.context, &embree_ray);
 #endif
-  return query.found;
+  return query.found();
 }
 
 }  // namespace cambium

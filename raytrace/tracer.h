@@ -13,7 +13,17 @@ namespace cambium {
 struct SurfaceHit {
   double t = 0;             ///< metres along the ray
   std::uint32_t cell = 0;   ///< index of the cell it was found in
+  bool analytic = false;    ///< on a chain that is alone there: solved in closed form
+  Vec3 normal{0.0};         ///< outward unit normal; against the ray where the field has none
+  double radius = 0;        ///< of the branch, metres: on a lone chain that of the axis nearest, else the smallest in the cell
 };
+
+/// The hit's point, raised off the surface just far enough (4e-6 of the radius) that a ray from there that leaves the surface does
+/// not meet it again: where shadow rays start.
+inline Vec3 off_surface(const Ray& ray, const SurfaceHit& hit) { return ray.at(hit.t) + (4e-6 * hit.radius) * hit.normal; }
+
+/// How fine a cover has to be for rays: not for meshes.
+CoverOptions tracing_cells();
 
 /// Owns the cover. Thread safe: each thread brings its own Evaluator. Errors: std::runtime_error if Embree cannot start.
 class Tracer {
