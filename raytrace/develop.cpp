@@ -23,6 +23,7 @@ AmbientPixel ambient_pixel(const PixelSum& sum, const Ray& middle) {
   pixel.light = sum.ambient;
   pixel.light_squared = sum.ambient_squared;
   pixel.hits = sum.hits;
+  pixel.covered = sum.hit_share();
   return pixel;
 }
 

@@ -13,7 +13,10 @@ namespace {
 
 constexpr float kKernel[5] = {1 / 16.0f, 1 / 4.0f, 3 / 8.0f, 1 / 4.0f, 1 / 16.0f};
 constexpr int kStrides[] = {1, 2, 4, 8};
-constexpr float kSigmas = 5;              // of noise, beyond which a difference is real; at 3 a lone hidden ray stays as a speck
+// Of noise, beyond which a difference is real: for many samples, and what is added for one. With 3 for one sample a lone hidden ray
+// stays as a speck; with 2.75 for sixteen a close-up's bark is further from the truth than if it were left alone, with 2 about as near.
+constexpr float kSigmas = 1, kSigmasOfOne = 4;
+constexpr float kAlbedoContrast = 0.15f;   // of neighbours, at which they count half: cracks in the bark see less of the sky
 constexpr float kLeastNoise = 0.01f;      // of the light: what differs by less is smoothed whatever its noise seems to be
 // After the first pass neighbours share what they are means of. On an even wall the passes' kernels together are as wide as
 // 1, 5, 21 and 85 pixels of variance: each gains 4 to 5 times the samples, not the 13 of a pass over independent ones.
@@ -27,6 +30,12 @@ struct Estimate {
 
 float brightness(const glm::vec3& light) { return static_cast<float>(luminance(Vec3(light))); }
 
+/// Of their surfaces' colour, [0, 1].
+float contrast(const AmbientPixel& a, const AmbientPixel& b) {
+  const float light = brightness(a.albedo) / a.covered, other = brightness(b.albedo) / b.covered;
+  return std::abs(light - other) / std::max(light + other, 1e-6f);
+}
+
 /// Whether two pixels may lie on one surface, [0, 1]: each near the other's tangent plane, normals alike.
 float likeness(const AmbientPixel& a, const AmbientPixel& b, float distance_pixels, float pixel_size) {
   const float cosine = glm::dot(a.normal, b.normal);
@@ -36,7 +45,8 @@ float likeness(const AmbientPixel& a, const AmbientPixel& b, float distance_pixe
   const float near = 1 - off_plane / (pixel_size * (1 + 0.5f * distance_pixels));
   if (near <= 0) return 0;
   const float c2 = cosine * cosine, c4 = c2 * c2, c8 = c4 * c4;
-  return c8 * c8 * near;
+  const float colour = contrast(a, b) / kAlbedoContrast;
+  return c8 * c8 * near / (1 + colour * colour);
 }
 
 class AmbientImage {
@@ -44,18 +54,21 @@ class AmbientImage {
   AmbientImage(const std::vector<AmbientPixel>& pixels, int width, int height, double pixel_angle)
       : pixels_(pixels), width_(width), height_(height), pixel_angle_(static_cast<float>(pixel_angle)) {}
 
-  /// Variance of one sample's light, pooled over 5 x 5 pixels of one surface: a single pixel has too few samples to tell.
+  /// Variance of one sample's light, pooled over 5 x 5 pixels of one surface: a single pixel has too few samples to tell. What
+  /// pixels differ among themselves may be real; it counts as one sample more, so that it decides only where each has but one.
   std::vector<float> sample_variance() const {
     std::vector<float> variance(pixels_.size());
     for_each_surface_pixel([&](std::size_t here, int x, int y) {
-      float n = 0, sum = 0, squares = 0;
-      for_each_neighbour(here, x, y, 1, [&](std::size_t there, float, float alike) {
-        const AmbientPixel& b = pixels_[there];
-        n += alike * b.hits, sum += alike * b.light, squares += alike * b.light_squared;
-      });
-      const AmbientPixel& a = pixels_[here];
-      n += a.hits, sum += a.light, squares += a.light_squared;
-      variance[here] = std::max(0.0f, squares / n - (sum / n) * (sum / n));
+      float n = 0, sum = 0, squares = 0, within = 0, freedom = 0;
+      const auto add = [&](const AmbientPixel& pixel, float weight) {
+        n += weight * pixel.hits, sum += weight * pixel.light, squares += weight * pixel.light_squared;
+        within += weight * std::max(0.0f, pixel.light_squared - pixel.light * pixel.light / pixel.hits);
+        freedom += weight * (pixel.hits - 1);
+      };
+      add(pixels_[here], 1);
+      for_each_neighbour(here, x, y, 1, [&](std::size_t there, float, float alike) { add(pixels_[there], alike); });
+      const float together = std::max(0.0f, squares / n - (sum / n) * (sum / n));
+      variance[here] = (within + together) / (freedom + 1);
     });
     return variance;
   }
@@ -65,6 +78,7 @@ class AmbientImage {
     for_each_surface_pixel([&](std::size_t here, int x, int y) {
       const Estimate& a = from[here];
       const float level = brightness(a.light), least = kLeastNoise * level;
+      const float sigmas = kSigmas + kSigmasOfOne / std::sqrt(pixels_[here].hits);
       const float own = kKernel[2] * kKernel[2] * a.samples;
       glm::vec3 sum = own * a.light;
       float weight = own, squares = own * own / a.samples;
@@ -72,7 +86,7 @@ class AmbientImage {
         const Estimate& b = from[there];
         const float difference = brightness(b.light) - level;
         const float noise = variance[here] * (1 / a.samples + 1 / b.samples) + least * least + 1e-12f;
-        const float agree = 1 - difference * difference / (kSigmas * kSigmas * noise);
+        const float agree = 1 - difference * difference / (sigmas * sigmas * noise);
         if (agree <= 0) return;
         const float w = kernel * alike * agree * b.samples;
         sum += w * b.light;

@@ -15,6 +15,7 @@ struct AmbientPixel {
   glm::vec3 from_eye{0.0f};        ///< mean place of the hits, metres
   float light = 0, light_squared = 0;  ///< sums over the hits of the ambient light's luminance and its square
   float hits = 0;                  ///< how many samples hit; 0: there is no surface here
+  float covered = 0;               ///< share of the samples that hit
 };
 
 /// The farthest pixel that one pixel's result depends on, in each direction.
