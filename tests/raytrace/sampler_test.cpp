@@ -36,6 +36,23 @@ TEST(PixelSampler, TheFirstFourLieInFourQuarters) {
   }
 }
 
+TEST(PixelSampler, TwoUsesFillWhatTheySpanTogether) {
+  // 256 points in 16 x 16 squares: random ones leave some 162 of them occupied; bits that go hand in hand leave 16 or 32.
+  std::set<Use> uses{Use::kPixel, Use::kLens, Use::kOnward, Use::kSun};
+  for (int pixel = 0; pixel < 20; ++pixel) {
+    const PixelSampler sampler(5, pixel, 3);
+    for (const Use one : uses) {
+      for (const Use other : uses) {
+        if (one == other) continue;
+        std::set<int> squares;
+        for (std::uint32_t s = 0; s < 256; ++s)
+          squares.insert(int(16 * sampler.pair(s, one)[0]) * 16 + int(16 * sampler.pair(s, other)[0]));
+        EXPECT_GT(squares.size(), 120u);
+      }
+    }
+  }
+}
+
 TEST(PixelSampler, IsAPureFunctionThatDiffersBetweenPixelsUsesAndSeeds) {
   const auto at = [](std::uint64_t seed, int x, Use use) { return PixelSampler(seed, x, 2).pair(0, use); };
   EXPECT_EQ(at(1, 1, Use::kSun), at(1, 1, Use::kSun));
