@@ -65,9 +65,7 @@ PathTracer::Vertex PathTracer::bark_vertex(Walk& walk, const Ray& ray, const Sur
                                            CameraSample* seen) const {
   const PrunedField field = tracer_.cover().field(hit.cell);
   const Vec3 p = glm::clamp(ray.at(hit.t), field.box().lo, field.box().hi);
-  const Vec3 gradient = walk.evaluator.sample(field, p).gradient;
-  const double steepness = glm::length(gradient);
-  Vec3 normal = steepness > 0 ? -gradient / steepness : -ray.direction;
+  Vec3 normal = hit.normal;
   const bool fine = seen && options_.relief;
   const double covered = footprint / std::max(kLeastFacing, -glm::dot(normal, ray.direction));
   const BarkLook look = fine ? bark_.look(walk.evaluator, field, p, normal, covered) : bark_.glance(walk.evaluator, field, p, covered);

@@ -78,7 +78,8 @@ class CameraSamples : public SampleSource {
   CameraSample sample(int x, int y, std::uint32_t index) const override {
     const PixelSampler sampler(seed_, x, y);
     const auto [dx, dy] = filter_.offset(sampler.pair(index, Use::kPixel));
-    const Ray ray = view_.ray(x + 0.5 + dx, y + 0.5 + dy, sampler.pair(index, Use::kLens));
+    const double px = x + 0.5 + dx, py = y + 0.5 + dy;
+    const Ray ray = view_.lens_radius > 0 ? view_.ray(px, py, sampler.pair(index, Use::kLens)) : view_.ray(px, py);
     return path_tracer_.sample(evaluators_.local(), ray, sampler, index);
   }
 
