@@ -65,7 +65,7 @@ void declare(CLI::App& app, CommandLine& line) {
   CLI::App* volume = add_command(app, line, Command::kVolume, "volume", "an OpenVDB grid (.vdb)", true);
   volume->add_option("--voxel", line.voxel, "edge of a voxel, such as 5mm");
   volume->add_option("--kind", line.kind, "sdf, field or fog");
-  CLI::App* render = add_command(app, line, Command::kRender, "render", "a ray-traced still (.png .exr)", true);
+  CLI::App* render = add_command(app, line, Command::kRender, "render", "a ray-traced still (.png .jpg .exr)", true);
   render->add_option("--size", line.size, "pixels, such as 768x1024");
   render->add_option("--samples", line.samples, "per pixel, as min..max such as 1..16; 16 alone: up to 16");
   render->add_option("--noise", line.noise,

@@ -84,6 +84,11 @@ std::vector<Picture> pictures_of(const CommandLine& line) {
   return pictures;
 }
 
+void refuse_for_jpeg(const CommandLine& line, const RenderOptions& options) {
+  if (line.bits != 8) throw InputError({"--bits"}, fmt::format("{} bits of a .jpg", line.bits), "8, or a .png");
+  if (options.light.backdrop == Backdrop::kTransparent) throw InputError({line.output}, "a .jpg of a transparent picture", ".png or .exr");
+}
+
 void report(Job& job, const Rendered& rendered) {
   const RenderReport& report = rendered.report;
   job.figures.set("width", rendered.film.width);
@@ -116,8 +121,9 @@ Outcome make_picture(Job& job, const Renderer& renderer, const RenderOptions& op
 }  // namespace
 
 Outcome run_render(Job& job) {
-  const ImageFormat format{require_extension(job.line.output, {".png", ".exr"}), job.line.bits};
+  const ImageFormat format{require_extension(job.line.output, {".png", ".jpg", ".exr"}), job.line.bits};
   RenderOptions options = render_options(job);
+  if (format.extension == ".jpg") refuse_for_jpeg(job.line, options);
   const std::vector<Picture> pictures = pictures_of(job.line);
   std::optional<PictureFiles> files(std::in_place, pictures.front().path, format, options.aovs);   // so that a bad path fails now
   const auto built = build_tree(job);

@@ -4,10 +4,10 @@ namespace cambium {
 
 PictureFiles::PictureFiles(const std::filesystem::path& path, const ImageFormat& format, const std::set<Aov>& aovs)
     : format_(format), path_(path), image_(path) {
-  if (format.extension != ".png") return;
+  if (format.extension == ".exr") return;
   for (const Aov aov : aovs) {
     std::filesystem::path beside = path;
-    beside.replace_extension(std::string(".") + info_of(aov).name + path.extension().string());
+    beside.replace_extension(std::string(".") + info_of(aov).name + ".png");
     beside_.push_back({aov, beside, std::make_unique<OutputFile>(beside)});
   }
 }

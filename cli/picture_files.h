@@ -12,7 +12,7 @@
 
 namespace cambium {
 
-/// The picture itself, and beside a PNG its auxiliary images: tree.png has tree.depth.png.
+/// The picture itself, and beside a PNG or JPEG its auxiliary images: tree.png has tree.depth.png.
 class PictureFiles {
  public:
   /// Errors: those of OutputFile.

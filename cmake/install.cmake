@@ -9,8 +9,9 @@ set(public_headers
   lsystem/lsystem.h
   polygonize/ambient_occlusion.h polygonize/decimate.h polygonize/mesh.h polygonize/mesh_attributes.h polygonize/mesh_io.h
   polygonize/polygonize.h polygonize/verify.h polygonize/volume.h
-  raytrace/aov.h raytrace/bark.h raytrace/camera.h raytrace/environment.h raytrace/film.h raytrace/image_file.h raytrace/light.h raytrace/path_options.h
-  raytrace/pixel_rect.h raytrace/render.h raytrace/sampling.h)
+  raytrace/aov.h raytrace/bark.h raytrace/bark_noise.h raytrace/bark_number.h raytrace/bark_pattern.h raytrace/camera.h
+  raytrace/environment.h raytrace/film.h raytrace/image_file.h raytrace/light.h raytrace/path_options.h
+  raytrace/pixel_rect.h raytrace/render.h raytrace/sampling.h raytrace/texture_image.h)
 foreach(header ${public_headers})
   get_filename_component(folder ${header} DIRECTORY)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cambium/${folder})

@@ -68,12 +68,15 @@ const std::vector<float>& Film::aov(Aov aov) const {
 
 void write_image(const Film& film, const std::filesystem::path& path, const ImageFormat& format) {
   if (format.extension == ".exr") return write_exr(film, path);
-  if (format.extension != ".png") throw InputError({path.string(), 0, 0}, "'" + format.extension + "'", ".png or .exr");
+  if (format.extension != ".png" && format.extension != ".jpg") {
+    throw InputError({path.string(), 0, 0}, "'" + format.extension + "'", ".png, .jpg or .exr");
+  }
+  if (format.extension == ".jpg" && film.transparent) throw InputError({path.string(), 0, 0}, "a transparent picture", ".png or .exr");
   const Pixels pixels = displayed(film);
   ImageLayout layout{.channel_names = {"R", "G", "B", "A"},
                      .sample_types = std::vector<SampleType>(pixels.channels, format.bits == 16 ? SampleType::kUint16 : SampleType::kUint8)};
   layout.channel_names.resize(pixels.channels);
-  write_pixels(pixels, layout, path, ".png");
+  write_pixels(pixels, layout, path, format.extension);
 }
 
 }  // namespace cambium

@@ -34,13 +34,13 @@ struct Film {
 // cryptomatte (matte_ranks).
 
 struct ImageFormat {
-  std::string extension = ".png";                ///< or ".exr"
+  std::string extension = ".png";                ///< or ".jpg" or ".exr"
   int bits = 8;                                  ///< of a PNG's channel: 8 or 16
 };
 
-/// PNG: tone mapped, sRGB, with straight alpha if the film is transparent. EXR: linear; colour premultiplied, 16 bit float; every
+/// PNG: tone mapped, sRGB, with straight alpha if the film is transparent; JPEG likewise, without. EXR: linear; colour premultiplied, 16 bit float; every
 /// AOV of the film in a layer of its own (AovInfo), with Cryptomatte's metadata; a part of a picture keeps its place in the whole
-/// (data window). Errors: InputError for an unknown format, std::runtime_error naming the path if writing fails.
+/// (data window). Errors: InputError for an unknown format or a transparent JPEG, std::runtime_error naming the path if writing fails.
 void write_image(const Film& film, const std::filesystem::path& path, const ImageFormat& format);
 /// One AOV as an 8 bit PNG for looking at: depth, position and samples over their range, normals as 0.5 + 0.5 n, uv modulo 1.
 void write_aov(const Film& film, const std::filesystem::path& path, Aov aov);

@@ -33,11 +33,12 @@ OIIO::TypeDesc type_of(SampleType type) {
   return OIIO::TypeDesc::FLOAT;
 }
 
-OIIO::ImageSpec png_spec(const Pixels& pixels, const ImageLayout& layout) {
+OIIO::ImageSpec display_spec(const Pixels& pixels, const ImageLayout& layout) {
   OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, type_of(layout.sample_types.front()));
   spec.channelnames = layout.channel_names;
   spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);  // the values are straight already
+  spec.attribute("Compression", "jpeg:92");     // of a JPEG; a PNG knows no such name
   return spec;
 }
 
@@ -94,16 +95,16 @@ Pixels read_pixels(const std::filesystem::path& path) {
 }
 
 void write_pixels(const Pixels& pixels, const ImageLayout& layout, const std::filesystem::path& path, const std::string& format) {
-  const bool png = format == ".png";
+  const bool exr = format == ".exr";
   // By format name, not by file name: the caller writes beside under a temporary name and renames.
-  const auto output = OIIO::ImageOutput::create(png ? "png" : "openexr");
+  const auto output = OIIO::ImageOutput::create(exr ? "openexr" : format == ".jpg" ? "jpeg" : "png");
   if (!output) throw std::runtime_error("cannot write " + path.string() + ": OpenImageIO has no " + format + " writer");
-  const OIIO::ImageSpec spec = png ? png_spec(pixels, layout) : exr_spec(pixels, layout);
+  const OIIO::ImageSpec spec = exr ? exr_spec(pixels, layout) : display_spec(pixels, layout);
   if (!output->open(path.string(), spec)) throw std::runtime_error("cannot write " + path.string() + ": " + first_line(output->geterror()));
-  const bool written = png && spec.format == OIIO::TypeDesc::UINT8
+  const bool written = exr ? output->write_image(OIIO::TypeDesc::FLOAT, pixels.data.data())
+                       : spec.format == OIIO::TypeDesc::UINT8
                            ? output->write_image(OIIO::TypeDesc::UINT8, encoded<std::uint8_t>(pixels).data())
-                       : png ? output->write_image(OIIO::TypeDesc::UINT16, encoded<std::uint16_t>(pixels).data())
-                             : output->write_image(OIIO::TypeDesc::FLOAT, pixels.data.data());
+                           : output->write_image(OIIO::TypeDesc::UINT16, encoded<std::uint16_t>(pixels).data());
   std::string trouble = written ? "" : first_line(output->geterror());
   if (!output->close() && trouble.empty()) trouble = first_line(output->geterror());
   if (trouble.empty()) return;

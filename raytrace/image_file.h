@@ -31,7 +31,8 @@ struct ImageLayout {
   std::vector<std::pair<std::string, std::string>> metadata{};  ///< of an EXR: names and texts
 };
 
-/// Writes to exactly `path`, whose name may have any ending. format: ".png" (data in [0, 1], rounded; sRGB) or ".exr" (linear).
+/// Writes to exactly `path`, whose name may have any ending. format: ".png" or ".jpg" (data in [0, 1], rounded; sRGB; of a JPEG
+/// three channels of 8 bits) or ".exr" (linear).
 /// Errors: std::runtime_error naming the path; then no file is left.
 void write_pixels(const Pixels& pixels, const ImageLayout& layout, const std::filesystem::path& path, const std::string& format);
 

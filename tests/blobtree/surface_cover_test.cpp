@@ -298,7 +298,7 @@ TEST(SurfaceCover, FindsTheCellWhoseCubeHoldsAPoint) {
           ASSERT_EQ(evaluator.value(whole, p), 0);
         }
         const auto above = cover.find({cube.lo.x, cube.lo.y, cube.hi.z});   // a neighbour's low face
-        if (above) ASSERT_TRUE(*above != i && cover.cube(*above).contains({cube.lo.x, cube.lo.y, cube.hi.z}));
+        if (above) { ASSERT_TRUE(*above != i && cover.cube(*above).contains({cube.lo.x, cube.lo.y, cube.hi.z})); }
         ++found;
       }
       for (int k = 0; k < 500; ++k) {

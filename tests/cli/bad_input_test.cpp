@@ -174,6 +174,8 @@ TEST_F(BadInput, OptionsAreNamed) {
     expect_refused({"render", input, "-o", at("a.png"), "--crop", crop}, std::string("--crop: found the crop ") + crop + ",");
   expect_refused({"render", input, "-o", at("a.png"), "--bits", "12"}, "cambium: ");
   expect_refused({"render", input, "-o", at("a.png"), "--aov", "depth,beauty"}, "--aov: found 'beauty'");
+  expect_refused({"render", input, "-o", at("a.jpg"), "--bits", "16"}, "--bits: found 16 bits of a .jpg");
+  expect_refused({"render", input, "-o", at("a.jpg"), "--set", "render.background=transparent"}, at("a.jpg") + ": found a .jpg of a");
   expect_refused({"render", input, "-o", at("a.png"), "--frame", "2"}, "--frame: found frame 2 without a turntable");
   expect_refused({"render", input, "-o", at("a.png"), "--turntable", "3", "--frame", "4"}, "--frame: found frame 4, expected 1 to 3");
   expect_refused({"render", input, "-o", at("a.png"), "--close-up", "7"}, "--close-up: found branch 7");

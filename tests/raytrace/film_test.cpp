@@ -81,6 +81,18 @@ TEST_F(FilmFiles, APngOfSixteenBitsIsFiner) {
   EXPECT_NEAR(read_pixels(folder_ / "still.png").data[3 * 4], display_from_linear({0.4, 0.2, 5.0}).x, 0.5 / 65535 + 1e-6);
 }
 
+TEST_F(FilmFiles, AJpegShowsWhatThePngDoesAndRefusesTransparency) {
+  for (float& v : film_.color) v = 0.3f;   // even, so that little is lost
+  write_image(film_, folder_ / "still.jpg", {".jpg"});
+  write_image(film_, folder_ / "still.png", {".png"});
+  const Pixels jpeg = read_pixels(folder_ / "still.jpg"), png = read_pixels(folder_ / "still.png");
+  ASSERT_EQ(jpeg.data.size(), png.data.size());
+  for (std::size_t i = 0; i < png.data.size(); ++i) EXPECT_NEAR(jpeg.data[i], png.data[i], 3.0 / 255);
+  film_.transparent = true;
+  EXPECT_THROW(write_image(film_, folder_ / "clear.jpg", {".jpg"}), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "clear.jpg"));
+}
+
 TEST_F(FilmFiles, ATransparentPngHasStraightAlphaAndAnExrPremultiplied) {
   film_.transparent = true;
   film_.color[4] = 0.1f, film_.color[5] = 0.05f, film_.color[6] = 0.2f, film_.color[7] = 0.5f;
@@ -156,7 +168,7 @@ TEST_F(FilmFiles, AovPicturesAreWrittenOneByOne) {
 }
 
 TEST_F(FilmFiles, UnknownFormatsAndAbsentAovsAreTheUsersError) {
-  EXPECT_THROW(write_image(film_, folder_ / "a.jpg", {".jpg"}), InputError);
+  EXPECT_THROW(write_image(film_, folder_ / "a.tif", {".tif"}), InputError);
   film_.aovs.erase(Aov::kDepth);
   EXPECT_THROW(film_.aov(Aov::kDepth), InputError);
   EXPECT_THROW(write_aov(film_, folder_ / "a.png", Aov::kDepth), InputError);
@@ -164,7 +176,7 @@ TEST_F(FilmFiles, UnknownFormatsAndAbsentAovsAreTheUsersError) {
 }
 
 TEST_F(FilmFiles, AnUnwritablePathIsNamedAndLeavesNothing) {
-  for (const char* format : {".png", ".exr"}) {
+  for (const char* format : {".png", ".jpg", ".exr"}) {
     const auto path = folder_ / "missing" / "still";
     try {
       write_image(film_, path, {format});
