@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr int kReach = 2;             // of a decision, pixels
-constexpr int kSurfaceSamples = 4;    // where the surface may be: what is thinner than a pixel shows in one of them or nearby
+constexpr int kSurfaceSamples = 8;    // where the surface may be: what is thinner than a pixel shows in one of them or nearby
 constexpr float kOutline = 0.25f;     // how much hit beside missed counts, as displayed luminance
 
 /// The largest difference that the samples around a pixel show: between neighbours, and within a neighbour. Where a pixel two

@@ -6,7 +6,7 @@
 namespace cambium {
 
 struct Sampling {
-  int min = 1, max = 16;       ///< per pixel; a pixel that may show the surface takes at least 4 (if max allows)
+  int min = 1, max = 16;       ///< per pixel; a pixel that may show the surface takes at least 8 (if max allows)
   double noise = 0.0175;       ///< standard error of the displayed luminance, [0, 1], at which a pixel is done
   double filter_radius = 1.5;  ///< pixels; of the reconstruction filter (PixelFilter)
 };
