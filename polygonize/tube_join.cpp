@@ -14,7 +14,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kMostTurns = 0.35;      // that a triangle may reach around
 constexpr double kClear = 0.05;          // in radii: of an open end from the plane of the ring
 constexpr double kHardlyBent = 0.9999;   // cosine between neighbouring segments
-constexpr double kChordShare = 0.75;     // of the tolerance: what the surface may stand out over a chord
+constexpr double kChordShares[] = {0.75, 0.2, 0.05};   // of the tolerance: what the surface may stand out over a chord
 constexpr double kFarthest = 1.25;       // in tolerances: what is farther from the surface is no use, as in late rounds of refinement
 
 }  // namespace
@@ -54,7 +54,19 @@ bool TubeJoin::unroll_line(std::vector<glm::dvec2>& line, std::vector<std::uint3
   return std::abs(around - kTurn) < 1;
 }
 
+// Where a triangle is off or in the way of another, shorter chords keep nearer to the surface.
 bool TubeJoin::add_to(Tube& tube, std::uint32_t first) const {
+  const std::size_t positions = tube.positions.size(), triangles = tube.triangles.size();
+  for (const double share : kChordShares) {
+    if (add_with_chords(tube, first, share)) return true;
+    tube.positions.resize(positions);
+    tube.normals.resize(positions);
+    tube.triangles.resize(triangles);
+  }
+  return false;
+}
+
+bool TubeJoin::add_with_chords(Tube& tube, std::uint32_t first, double chord_share) const {
   std::vector<glm::dvec2> lower, upper;
   std::vector<std::uint32_t> names;
   if (!unroll_line(lower, names)) return false;
@@ -64,7 +76,7 @@ bool TubeJoin::add_to(Tube& tube, std::uint32_t first) const {
   }
   double lowest = 0;
   for (const glm::dvec2& point : lower) lowest = std::min(lowest, point.y);
-  const auto found = triangulate_annulus(lower, upper, kTurn * radius_, chord_excess(lowest));
+  const auto found = triangulate_annulus(lower, upper, kTurn * radius_, chord_excess(lowest, chord_share));
   if (!found) return false;
   std::vector<glm::dvec2> points = lower;
   points.insert(points.end(), upper.begin(), upper.end());
@@ -85,8 +97,8 @@ bool TubeJoin::add_to(Tube& tube, std::uint32_t first) const {
 
 // What stands out over a chord is to be no more than the tolerance, nor may it reach much farther around than a ring's sides. On a
 // straight stretch it is known from how far around it reaches.
-ChordExcess TubeJoin::chord_excess(double lowest) const {
-  const double bow = std::min(kChordShare * tolerance_ / radius_, 1.0);
+ChordExcess TubeJoin::chord_excess(double lowest, double chord_share) const {
+  const double most = chord_share * tolerance_, bow = std::min(most / radius_, 1.0);
   const double widest = radius_ * std::min(2 * std::acos(1 - bow), 1.5 * kTurn / ring_.sides);
   const auto around = [widest](const glm::dvec2& a, const glm::dvec2& b) { return std::abs(a.x - b.x) / widest; };
   const double other = ring_.at + (at_end_ ? -lowest : lowest);
@@ -94,10 +106,10 @@ ChordExcess TubeJoin::chord_excess(double lowest) const {
   bool straight = true;
   for (std::size_t k = first; k < last; ++k) straight = straight && glm::dot(path_.direction(k), path_.direction(k + 1)) > kHardlyBent;
   if (straight) return around;
-  return [this, around](const glm::dvec2& a, const glm::dvec2& b) {
+  return [this, around, most](const glm::dvec2& a, const glm::dvec2& b) {
     const Vec3 middle = (rolled(a).position + rolled(b).position) / 2.0;
     const double s = ring_.at + (at_end_ ? -1 : 1) * (a.y + b.y) / 2;
-    return std::max(around(a, b), std::abs(path_.distance(s, middle)) / (kChordShare * tolerance_));
+    return std::max(around(a, b), std::abs(path_.distance(s, middle)) / most);
   };
 }
 
