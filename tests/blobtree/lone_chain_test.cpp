@@ -61,7 +61,8 @@ TEST(LoneChain, IsTheTrunkBelowAForkAndNothingInTheCrotch) {
 
 TEST(LoneChain, NamesSegmentsByTheirPlaceInTheChain) {
   const Field field = forked();
-  const auto upper = LoneChain::of(field.prune({{-0.2, -0.2, 1.7}, {0.2, 0.2, 1.8}}));
+  const PrunedField top = field.prune({{-0.2, -0.2, 1.7}, {0.2, 0.2, 1.8}});
+  const auto upper = LoneChain::of(top);
   ASSERT_TRUE(upper);
   ASSERT_EQ(upper->segment_count(), 1u);
   EXPECT_EQ(upper->segment_number(0), 1u);
@@ -85,7 +86,8 @@ TEST(LoneChain, IsNoneUnderAWarp) {
 TEST(ActiveChain, AllOfACellAreListedButWarpedOnes) {
   const Field field = forked();
   std::vector<ActiveChain> chains;
-  ActiveChain::append(field.prune({{0.05, -0.05, 1.0}, {0.15, 0.05, 1.1}}), chains);
+  const PrunedField crotch = field.prune({{0.05, -0.05, 1.0}, {0.15, 0.05, 1.1}});
+  ActiveChain::append(crotch, chains);
   ASSERT_EQ(chains.size(), 2u);
   EXPECT_EQ(chains[0].branch(), 7u);
   EXPECT_EQ(chains[0].segment_number(0), 0u);

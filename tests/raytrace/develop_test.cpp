@@ -36,7 +36,8 @@ Film developed(const PixelRect& crop, const DevelopOptions& options) {
   Frame frame(kWhole, kWhole, {.first_hits = true});
   std::vector<std::uint32_t> pixels(kWhole.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint32_t>(i);
-  ProgressMeter progress({}, "render");
+  const RunOptions run;
+  ProgressMeter progress(run, "render");
   EXPECT_TRUE(frame.take(HalfHit(), pixels, 4, progress, 1, {}));
   return develop(frame, crop, options);
 }

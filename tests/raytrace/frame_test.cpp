@@ -94,7 +94,8 @@ TEST(Frame, JudgesTheAmbientLightAsEvenOnlyIfItWillBeSmoothed) {
   };
   for (const bool even : {true, false}) {
     Frame frame(kWhole, kArea, {.even_ambient = even});
-    ProgressMeter progress({}, "render");
+    const RunOptions run;
+    ProgressMeter progress(run, "render");
     ASSERT_TRUE(frame.take(Flickering(), every_pixel(), 4, progress, 1, {}));
     EXPECT_EQ(frame.sum(10, 20).spread() < 1e-3, even);
   }
