@@ -12,7 +12,9 @@ namespace cambium {
 /// Calls run.progress one thread at a time, in steps of at least a percent, never backwards.
 class ProgressMeter {
  public:
+  /// run outlives it.
   ProgressMeter(const RunOptions& run, std::string stage) : run_(run), stage_(std::move(stage)) {}
+  ProgressMeter(RunOptions&& run, std::string stage) = delete;
 
   void add(double fraction) {
     if (!run_.progress) return;

@@ -18,8 +18,8 @@ double radius_in(const PrunedField& field);
 /// longer than 1e-6 r is never missed, what is reported is a place where f reaches kIso to within 1e-6 r s, and it is within
 /// 1e-6 r of the first. Where the ray only touches the surface, f exceeding kIso on less than 1e-6 r, either answer may come:
 /// on a ball the ray is then less than 2e-13 r deep. Not so where slopes are unknown, on the far side of a bend's centre: there
-/// stretches shorter than 2 % of the smallest radius are settled by their ends. No allocation. Cost: two or three courses and as many samples where the ray
-/// meets the surface, one course where it passes it by, some twenty of each where it touches.
+/// stretches shorter than 2 % of the smallest radius are settled by their ends. No allocation. Cost: two or three courses and as many
+/// samples where the ray meets the surface, one course where it passes it by, some twenty of each where it touches.
 std::optional<double> first_root(Evaluator& evaluator, const PrunedField& field, const Ray& ray, const RaySegment& segment);
 
 /// Whether there is any such t: the same answer, sooner.

@@ -17,7 +17,6 @@
 namespace cambium {
 namespace {
 
-constexpr std::size_t kMostCells = 4000000;   // of a cover: beyond, its hierarchy would take more memory than it saves time
 
 class Stopwatch {
  public:
@@ -147,9 +146,7 @@ std::optional<Renderer> Renderer::make(const Field& field, const RunOptions& run
   if (run.cancelled()) return std::nullopt;
   return with_threads(run, [&]() -> std::optional<Renderer> {
     Stopwatch watch;
-    CoverOptions cells;
-    cells.max_cells = kMostCells;
-    auto cover = cover_surface(field, cells, run);
+    auto cover = cover_surface(field, tracing_cells(), run);
     if (!cover) return std::nullopt;
     auto scene = std::make_unique<Scene>(field, std::move(*cover));
     scene->seconds = watch.lap();
