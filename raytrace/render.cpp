@@ -17,7 +17,6 @@
 namespace cambium {
 namespace {
 
-
 class Stopwatch {
  public:
   /// Seconds since it was made or last asked.
