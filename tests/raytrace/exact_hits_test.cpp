@@ -1,160 +1,248 @@
-// No ray may miss a surface or report one that is not there: hits against dense sampling in which every stretch that is not sampled
-// is certified empty by an interval. Half of the rays only just touch a surface, or only just pass it.
+// No ray may miss a surface or report one that is not there: what the tracer says against a reference that knows nothing but values
+// and intervals. Half of the rays only just touch a surface, or only just pass it.
 //
 // 20 random BlobTrees and the poplar of examples/. With CAMBIUM_EXHAUSTIVE=1 in the environment a million rays.
 #include "raytrace/tracer.h"
 
 #include "lsystem/lsystem.h"
+#include "raytrace/hash.h"
 #include "skeletons/surface.h"
 #include "tests/blobtree/random_blobtrees.h"
+#include "tests/raytrace/sampled_surface.h"
 
 #include <gtest/gtest.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace cambium {
 namespace {
 
-constexpr double kFinestRadii = 1e-3;     // stretches that no interval certifies are sampled when they are this short
-constexpr double kNearTouching = 2e-3;    // and searched for their highest place where f is as near to the surface as this
-constexpr double kTouching = 1e-9;        // of f: beyond, an answer is wrong
-constexpr double kToleranceRadii = 2e-6;  // of the hit's place: 1e-6 of the radius to either side
+constexpr double kToleranceRadii = 1e-6;   // of the hit's place
+constexpr double kMisplacedRadii = 1e-3;   // a hit that is later than this is another one, and the first was missed
 
 bool is_exhaustive() {
   const char* const wish = std::getenv("CAMBIUM_EXHAUSTIVE");
   return wish && std::string_view(wish) == "1";
 }
 
-/// The field along one ray in one cell.
-class AlongRay {
+struct Subject {
+  Subject(const Field& field, const CoverOptions& cells) : tracer(*cover_surface(field, cells, {})), reference(field) {}
+  Tracer tracer;
+  SampledSurface reference;
+};
+
+enum class Fault { kNone, kMiss, kFalseHit, kMisplaced, kShadowMissed, kFalseShadow };
+
+/// What one ray came to.
+struct Verdict {
+  Fault fault = Fault::kNone;
+  bool hit = false, analytic = false, touching = false;
+  double t = 0;                 ///< the tracer's; infinite where it found nothing
+  double early = 0, late = 0;   ///< between them a place is right; infinite where there is none
+  double error = 0;             ///< of the place, in radii, where the ray does not only touch
+};
+
+/// The tracer's answers about a ray, first place and shadow, against the reference's.
+class Judge {
  public:
-  AlongRay(Evaluator& evaluator, const PrunedField& field, const Ray& ray)
-      : evaluator_(evaluator), field_(field), ray_(ray), finest_(kFinestRadii * radius_in(field)) {}
+  Judge(const Subject& subject, Evaluator& evaluator, const Ray& ray) : subject_(subject), evaluator_(evaluator), ray_(ray) {}
 
-  double value(double t) const { return evaluator_.value(field_, ray_.at(t)); }
-
-  /// Whether f is surely above kIso somewhere on the part.
-  bool rises_above(const RaySegment& part) const {
-    const double half = 0.5 * (part.end - part.begin), middle = part.begin + half;
-    if (evaluator_.interval(field_, Ball{ray_.at(middle), half * (1 + 1e-9)}).hi < kIso) return false;
-    if (2 * half > finest_) return rises_above({part.begin, middle}) || rises_above({middle, part.end});
-    const double highest = std::max({value(part.begin), value(middle), value(part.end)});
-    return highest > kIso + kTouching || (highest > kIso - kNearTouching && highest_on(part) > kIso + kTouching);
+  Verdict operator()() {
+    const auto hit = subject_.tracer.intersect(evaluator_, ray_);
+    verdict_.hit = hit.has_value();
+    verdict_.analytic = hit && hit->analytic;
+    verdict_.t = hit ? hit->t : kInfinity;
+    verdict_.early = reference(kIso - kTouching);
+    const double tolerance = hit ? kToleranceRadii * hit->radius : 0;
+    verdict_.fault = place_fault(hit.has_value(), hit ? hit->radius : 1);
+    if (verdict_.fault == Fault::kNone) verdict_.fault = shadow_fault(tolerance);
+    return verdict_;
   }
 
  private:
-  double highest_on(RaySegment part) const {
-    for (int i = 0; i < 40; ++i) {
-      const double a = part.begin + (part.end - part.begin) / 3, b = part.end - (part.end - part.begin) / 3;
-      (value(a) < value(b) ? part.begin : part.end) = value(a) < value(b) ? a : b;
+  double reference(double level) const { return subject_.reference.first_reaching(evaluator_, ray_, level).value_or(kInfinity); }
+  bool occluded(double t_end) const { return subject_.tracer.occluded(evaluator_, ray_, t_end); }
+
+  Fault place_fault(bool hit, double radius) {
+    if (!hit && verdict_.early == kInfinity) return Fault::kNone;
+    if (hit && std::abs(verdict_.t - verdict_.early) <= kToleranceRadii * radius) {
+      verdict_.error = std::abs(verdict_.t - verdict_.early) / radius;
+      return Fault::kNone;
     }
-    return value(0.5 * (part.begin + part.end));
+    if (verdict_.t < verdict_.early) return Fault::kFalseHit;
+    verdict_.touching = true;
+    verdict_.late = reference(kIso + kTouching);
+    if (verdict_.late == kInfinity) return Fault::kNone;
+    if (!hit || verdict_.t > verdict_.late + kMisplacedRadii * radius) return Fault::kMiss;
+    return verdict_.t > verdict_.late + kToleranceRadii * radius ? Fault::kMisplaced : Fault::kNone;
   }
 
+  /// Nothing stands before the first place that can be right, and something does up to the hit.
+  Fault shadow_fault(double tolerance) {
+    const double before = verdict_.early - tolerance;
+    if (before > 0 && occluded(before)) return Fault::kFalseShadow;
+    if (!verdict_.hit || occluded(verdict_.t + tolerance)) return Fault::kNone;
+    verdict_.touching = true;
+    verdict_.late = reference(kIso + kTouching);
+    return verdict_.late <= verdict_.t ? Fault::kShadowMissed : Fault::kNone;
+  }
+
+  const Subject& subject_;
   Evaluator& evaluator_;
-  const PrunedField& field_;
   const Ray& ray_;
-  double finest_;
+  Verdict verdict_;
 };
+
+/// The rays that a subject is tried with: each a function of its number alone.
+class RayMix {
+ public:
+  RayMix(const Subject& subject, std::uint64_t seed) : subject_(subject), seed_(seed) {}
+
+  /// Ten of twenty graze, six pass through at random, one along an axis, and three start off, on and under the surface.
+  Ray ray(Evaluator& evaluator, std::size_t number) const {
+    Draws draws(mix_bits(seed_) + number);
+    draws = Draws(draws.next());
+    const std::size_t kind = number % 20;
+    Ray other = through(draws);
+    if (kind >= 10 && kind < 16) return other;
+    if (kind == 16) return along_an_axis(draws);
+    auto hit = subject_.tracer.intersect(evaluator, other);
+    for (int tries = 0; tries < kTries && !(hit && hit->t > 0); ++tries) {
+      other = through(draws);
+      hit = subject_.tracer.intersect(evaluator, other);
+    }
+    if (!hit) return other;
+    if (kind < 10) return grazing(other, *hit, draws);
+    if (kind == 17) return {off_surface(other, *hit), draws.direction()};
+    if (kind == 18) return {other.at(hit->t), draws.direction()};
+    return {other.at(hit->t) - std::pow(10.0, draws.in(-9, -0.5)) * hit->radius * hit->normal, draws.direction()};
+  }
+
+ private:
+  static constexpr int kTries = 100;
+  const Box& box() const { return subject_.tracer.bounds(); }
+  double far() const { return 1.5 * glm::length(box().size()); }
+
+  /// From around the scene to a place in it.
+  Ray through(Draws& draws) const {
+    const Vec3 from = box().center() + far() * draws.direction();
+    return {from, glm::normalize(draws.point(box()) - from)};
+  }
+  Ray along_an_axis(Draws& draws) const {
+    Vec3 direction(0.0);
+    direction[draws.below(3)] = draws.chance(0.5) ? 1 : -1;
+    return {draws.point(box()) - far() * direction, direction};
+  }
+  /// Along the surface where another ray hits it, off by some part of the radius.
+  Ray grazing(const Ray& other, const SurfaceHit& hit, Draws& draws) const {
+    const Vec3 along = glm::normalize(glm::cross(hit.normal, draws.direction()));
+    const double off = std::copysign(std::pow(10.0, draws.in(-9, -1.5)), draws.in(-1, 1)) * hit.radius;
+    return {other.at(hit.t) + off * hit.normal - far() * along, along};
+  }
+
+  const Subject& subject_;
+  std::uint64_t seed_;
+};
+
+std::string described(std::size_t number, const Ray& ray, const Verdict& verdict) {
+  static constexpr const char* kNames[] = {"fine", "miss", "false hit", "misplaced", "shadow missed", "false shadow"};
+  std::ostringstream out;
+  out.precision(17);
+  out << "ray " << number << ": " << kNames[static_cast<int>(verdict.fault)] << " at " << verdict.t << ", right from " << verdict.early << " to "
+      << verdict.late << ", origin {" << ray.origin.x << ", " << ray.origin.y << ", " << ray.origin.z << "}, direction {" << ray.direction.x << ", "
+      << ray.direction.y << ", " << ray.direction.z << "}\n";
+  return out.str();
+}
 
 struct Count {
-  std::size_t rays = 0, hits = 0, analytic = 0, misses = 0, false_hits = 0;
+  std::size_t rays = 0, hits = 0, analytic = 0, touching = 0;
+  double largest_error = 0;   // radii
+  std::vector<std::string> faults;
+
+  void add(const Verdict& verdict) {
+    ++rays;
+    hits += verdict.hit;
+    analytic += verdict.analytic;
+    touching += verdict.touching;
+    largest_error = std::max(largest_error, verdict.error);
+  }
+  void add(const Count& other) {
+    rays += other.rays;
+    hits += other.hits;
+    analytic += other.analytic;
+    touching += other.touching;
+    largest_error = std::max(largest_error, other.largest_error);
+    faults.insert(faults.end(), other.faults.begin(), other.faults.end());
+  }
 };
 
-/// A scene, and all the cells that its surface is in: every one is tried for every ray, without any hierarchy.
-struct Subject {
-  explicit Subject(SurfaceCover cover) : tracer(std::move(cover)) {
-    for (std::size_t i = 0; i < tracer.cover().size(); ++i) cells.push_back(tracer.cover().field(i));
-  }
-  Tracer tracer;
-  std::vector<PrunedField> cells;
-};
-
-void check(const Subject& subject, Evaluator& evaluator, const Ray& ray, Count& count) {
-  const auto hit = subject.tracer.intersect(evaluator, ray);
-  ++count.rays;
-  count.hits += hit.has_value();
-  double before = kInfinity;
-  if (hit) {
-    count.analytic += hit->analytic;
-    const PrunedField field = subject.tracer.cover().field(hit->cell);
-    const double tolerance = kToleranceRadii * radius_in(field);
-    const AlongRay along(evaluator, field, ray);
-    before = hit->t - tolerance;
-    if (std::max(along.value(hit->t), along.value(hit->t + 0.5 * tolerance)) < kIso - kTouching) ++count.false_hits;
-  }
-  for (const PrunedField& cell : subject.cells) {
-    const auto part = clip(ray, cell.box(), {0, before});
-    if (part && AlongRay(evaluator, cell, ray).rises_above(*part)) {
-      ++count.misses;
-      return;
-    }
-  }
-  if (hit && !subject.tracer.occluded(evaluator, ray)) ++count.misses;
-}
-
-/// From around the scene to a place in it.
-Ray random_ray(const Box& box, Draws& draws) {
-  const Vec3 from = box.center() + 1.5 * glm::length(box.size()) * draws.direction();
-  return {from, glm::normalize(draws.point(box) - from)};
-}
-
-/// Along the surface where another ray hits it, off by some part of the radius.
-Ray grazing_ray(const Ray& other, const SurfaceHit& hit, double far, Draws& draws) {
-  const Vec3 along = glm::normalize(glm::cross(hit.normal, draws.direction()));
-  const double off = std::copysign(std::pow(10.0, draws.in(-9, -1.5)), draws.in(-1, 1)) * hit.radius;
-  return {other.at(hit.t) + off * hit.normal - far * along, along};
-}
-
-Count trace_all(const Subject& subject, std::size_t rays, Draws& draws) {
-  Evaluator evaluator;
-  Count count;
-  const Box& box = subject.tracer.bounds();
-  while (count.rays < rays) {
-    const Ray ray = random_ray(box, draws);
-    check(subject, evaluator, ray, count);
-    if (const auto hit = subject.tracer.intersect(evaluator, ray); hit && hit->t > 0) {
-      for (int i = 0; i < 2; ++i) check(subject, evaluator, grazing_ray(ray, *hit, glm::length(box.size()), draws), count);
-    }
-  }
-  return count;
+Count trace_all(const Subject& subject, std::size_t rays, std::uint64_t seed) {
+  const RayMix mix(subject, seed);
+  struct Worker {
+    Evaluator evaluator;
+    Count count;
+  };
+  tbb::enumerable_thread_specific<Worker> workers;
+  tbb::parallel_for(std::size_t{0}, rays, [&](std::size_t i) {
+    auto& [evaluator, count] = workers.local();
+    const Ray ray = mix.ray(evaluator, i);
+    const Verdict verdict = Judge(subject, evaluator, ray)();
+    count.add(verdict);
+    if (verdict.fault != Fault::kNone) count.faults.push_back(described(i, ray, verdict));
+  });
+  Count all;
+  for (const Worker& worker : workers) all.add(worker.count);
+  return all;
 }
 
 void expect_exact(const Count& count, const std::string& what) {
-  EXPECT_EQ(count.misses, 0u) << what;
-  EXPECT_EQ(count.false_hits, 0u) << what;
+  std::string faults;
+  for (std::size_t i = 0; i < std::min<std::size_t>(count.faults.size(), 20); ++i) faults += count.faults[i];
+  EXPECT_EQ(count.faults.size(), 0u) << what << '\n' << faults;
   EXPECT_GT(count.hits, count.rays / 10) << what;
+}
+
+void print(const Count& count, const std::string& what) {
+  std::printf("%s: %zu rays, %zu hits (%zu in closed form), %zu faults, %zu only touch, farthest %.2g radii off\n", what.c_str(), count.rays, count.hits,
+              count.analytic, count.faults.size(), count.touching, count.largest_error);
+  std::fflush(stdout);
+}
+
+/// Some have cells, but hardly any surface.
+bool is_worth_rays(const Subject& subject, std::uint64_t seed) {
+  if (subject.tracer.cover().empty()) return false;
+  Evaluator evaluator;
+  const RayMix mix(subject, seed);
+  int hits = 0;
+  for (int i = 0; i < 50; ++i) hits += subject.tracer.intersect(evaluator, mix.ray(evaluator, 20 * i + 10)).has_value();
+  return hits >= 15;
 }
 
 TEST(ExactHits, OnRandomBlobTrees) {
   constexpr int kTrees = 20;
-  const std::size_t rays = is_exhaustive() ? 45'000 : 60;
-  Evaluator evaluator;
+  const std::size_t rays = is_exhaustive() ? 45'000 : 400;
   Count all;
   int trees = 0;
   for (std::uint64_t seed = 1; trees < kTrees; ++seed) {
     ASSERT_LT(seed, 1000u);
-    const Field field(random_blobtree(seed, 4));
-    auto cover = cover_surface(field, {}, {});
-    if (cover->empty()) continue;
-    const Subject subject(std::move(*cover));
-    // Some have cells, but hardly any surface.
-    Draws draws(seed);
-    int probes = 0;
-    for (int i = 0; i < 50; ++i) probes += subject.tracer.intersect(evaluator, random_ray(subject.tracer.bounds(), draws)).has_value();
-    if (probes < 15) continue;
+    const Subject subject(Field(random_blobtree(seed, 4)), {});
+    if (!is_worth_rays(subject, seed)) continue;
     ++trees;
-    const Count count = trace_all(subject, rays, draws);
-    expect_exact(count, "tree " + std::to_string(seed));
-    all = {all.rays + count.rays, all.hits + count.hits, all.analytic + count.analytic, all.misses + count.misses, all.false_hits + count.false_hits};
+    const Count count = trace_all(subject, rays, seed);
+    const std::string what = "tree " + std::to_string(seed);
+    expect_exact(count, what);
+    print(count, what);
+    all.add(count);
   }
-  RecordProperty("rays", std::to_string(all.rays));
-  RecordProperty("hits", std::to_string(all.hits));
-  std::printf("%zu rays, %zu hits, %zu misses, %zu false hits\n", all.rays, all.hits, all.misses, all.false_hits);
+  print(all, "all");
 }
 
 TEST(ExactHits, OnThePoplar) {
@@ -166,15 +254,11 @@ TEST(ExactHits, OnThePoplar) {
   prune.where.branch = 4;
   prune.distance = 0.12;
   options.prunes = {prune};
-  const Field field(surface(interpret(*derive(system, {}, {}), system, {}).skeleton, options).tree);
-  auto cover = cover_surface(field, tracing_cells(), {});
-  const Subject subject(std::move(*cover));
-  Draws draws(2);
-  const Count count = trace_all(subject, is_exhaustive() ? 100'000 : 300, draws);
+  const Subject subject(Field(surface(interpret(*derive(system, {}, {}), system, {}).skeleton, options).tree), tracing_cells());
+  const Count count = trace_all(subject, is_exhaustive() ? 100'000 : 1'000, 2);
   expect_exact(count, "poplar");
   EXPECT_GT(count.analytic, count.hits / 4);
-  std::printf("%zu rays, %zu hits of which %zu in closed form, %zu misses, %zu false hits\n", count.rays, count.hits, count.analytic,
-              count.misses, count.false_hits);
+  print(count, "poplar");
 }
 
 }  // namespace
