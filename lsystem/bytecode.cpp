@@ -1,5 +1,7 @@
 #include "lsystem/bytecode.h"
 
+#include "lsystem/printf_text.h"
+
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -18,7 +20,7 @@ constexpr FunctionInfo kFunctions[] = {
     {"trunc", Function::kTrunc, 1}, {"fabs", Function::kFabs, 1},   {"sign", Function::kSign, 1},
     {"min", Function::kMin, 2},     {"max", Function::kMax, 2},     {"pow", Function::kPow, 2},
     {"ran", Function::kRan, 1},     {"nran", Function::kNran, 2},   {"bran", Function::kBran, 2},
-    {"srand", Function::kSrand, 1},
+    {"biran", Function::kBiran, 2}, {"srand", Function::kSrand, 1}, {"func", Function::kFunc, 2},
 };
 
 std::string_view name_of(Function function) {
@@ -64,11 +66,34 @@ double Machine::call(Function function, const double* a) {
     case Function::kRan: return random_.uniform() * a[0];
     case Function::kNran: return a[0] + a[1] * random_.normal();
     case Function::kBran: return a[0] > 0 && a[1] > 0 ? random_.beta(a[0], a[1]) : std::nan("");
+    case Function::kBiran:
+      return a[0] >= 0 && a[0] <= 1e6 && a[1] >= 0 && a[1] <= 1 ? random_.binomial(a[0], a[1]) : std::nan("");
+    case Function::kFunc: {
+      const double number = std::trunc(a[0]);
+      if (!(number >= 1 && number <= static_cast<double>(tables_.curves.size()))) return std::nan("");
+      return tables_.curves[static_cast<std::size_t>(number) - 1].value(a[1]);
+    }
     case Function::kSrand:
       random_.reseed(static_cast<std::uint64_t>(std::fmin(std::fabs(a[0]), 9e15)));
       return 0;
   }
   return std::nan("");
+}
+
+double& Machine::element(const ArrayInfo& array, const double* indices, const Place& place) {
+  std::size_t flat = 0;
+  for (std::size_t d = 0; d < array.sizes.size(); ++d) {
+    const double i = indices[d];
+    if (!(i >= 0.0 && i < array.sizes[d]))
+      throw InputError(located(tables_.files, place), "index " + number_text(i) + " of '" + array.name + "'",
+                       "0 to " + std::to_string(array.sizes[d] - 1));
+    flat = flat * array.sizes[d] + static_cast<std::size_t>(i);
+  }
+  return globals_[array.first + flat];
+}
+
+void Machine::print(const PrintCall& call, const double* values) {
+  if (printer_ && *printer_) (*printer_)(printf_text(call.format, values, call.values));
 }
 
 const double* Machine::run(const Code& code, double* locals) {
@@ -78,7 +103,7 @@ const double* Machine::run(const Code& code, double* locals) {
   std::uint64_t budget = kMaxWork;
   std::size_t pc = 0;
   const auto fail = [&](std::string found, std::string expected) {
-    throw InputError(located(files_, code.places[pc]), std::move(found), std::move(expected));
+    throw InputError(located(tables_.files, code.places[pc]), std::move(found), std::move(expected));
   };
   while (pc < count) {
     if (--budget == 0) fail("a loop that does not end", "fewer than 4000000 operations for one module");
@@ -86,9 +111,9 @@ const double* Machine::run(const Code& code, double* locals) {
     switch (in.op) {
       case Op::kConstant: *++top = code.constants[in.operand]; break;
       case Op::kLocal: *++top = locals[in.operand]; break;
-      case Op::kGlobal: *++top = globals[in.operand]; break;
+      case Op::kGlobal: *++top = globals_[in.operand]; break;
       case Op::kStoreLocal: locals[in.operand] = *top--; break;
-      case Op::kStoreGlobal: globals[in.operand] = *top--; break;
+      case Op::kStoreGlobal: globals_[in.operand] = *top--; break;
       case Op::kDrop: --top; break;
       case Op::kNegate: *top = -*top; break;
       case Op::kNot: *top = *top == 0.0; break;
@@ -152,28 +177,25 @@ const double* Machine::run(const Code& code, double* locals) {
         *top = result;
         break;
       }
-      case Op::kElement:
-      case Op::kStoreElement: {
-        const bool stores = in.op == Op::kStoreElement;
-        const ArrayInfo& array = arrays_[in.operand];
-        const double value = stores ? *top-- : 0.0;
+      case Op::kElement: {
+        const ArrayInfo& array = tables_.arrays[in.operand];
         top -= array.sizes.size() - 1;
-        std::size_t index = 0;
-        for (std::size_t d = 0; d < array.sizes.size(); ++d) {
-          const double i = top[d];
-          if (!(i >= 0.0 && i < array.sizes[d]))
-            fail("index " + number_text(i) + " of '" + array.name + "'", "0 to " + std::to_string(array.sizes[d] - 1));
-          index = index * array.sizes[d] + static_cast<std::size_t>(i);
-        }
-        double& element = globals[array.first + index];
-        if (stores) {
-          element = value;
-          --top;
-        } else {
-          *top = element;
-        }
+        *top = element(array, top, code.places[pc]);
         break;
       }
+      case Op::kStoreElement: {
+        const ArrayInfo& array = tables_.arrays[in.operand];
+        const double value = *top--;
+        top -= array.sizes.size() - 1;
+        element(array, top, code.places[pc]) = value;
+        --top;
+        break;
+      }
+      case Op::kPrint:
+        top -= code.prints[in.operand].values;
+        print(code.prints[in.operand], top + 1);
+        *++top = 0.0;
+        break;
     }
     if (in.op >= Op::kAdd && in.op <= Op::kPower && !std::isfinite(*top))
       fail("a number that is not finite", "an expression within the range of a double");
@@ -181,6 +203,12 @@ const double* Machine::run(const Code& code, double* locals) {
   }
   work += kMaxWork - budget;
   return stack_.data();
+}
+
+double constant_value(const Code& code, const CodeTables& tables) {
+  CounterRandom random(0);
+  std::vector<double> no_variables;
+  return Machine(tables, random, no_variables).value(code, nullptr);
 }
 
 }  // namespace cambium

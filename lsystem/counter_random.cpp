@@ -1,5 +1,7 @@
 #include "lsystem/counter_random.h"
 
+#include "lsystem/lineage.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,28 +9,33 @@
 namespace cambium {
 namespace {
 
-// The finalizer of splitmix64 (Steele, Lea, Flood 2014): a bijection that passes the usual batteries on a counter.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
 double unit(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
-constexpr std::uint64_t kChoiceStream = 0xc01ce;
+constexpr std::uint64_t kChoiceStream = 0xc01ceull << 44;  // no rule has so high a number
 
 }  // namespace
 
-void CounterRandom::move_to(std::uint64_t stage, std::uint64_t step, std::uint64_t position) {
-  place_ = mixed(mixed(mixed(stage) ^ step) ^ position);
-  count_ = 0;
+void CounterRandom::reseed(std::uint64_t seed) {
+  seed_ = seed;
+  placed_ = false;
 }
 
-double CounterRandom::uniform() { return unit(mixed(mixed(mixed(seed_) ^ place_) ^ count_++)); }
+void CounterRandom::move_to(std::uint64_t stage, std::uint64_t key) {
+  stage_ = stage;
+  key_ = key;
+  count_ = 0;
+  placed_ = false;
+}
 
-double CounterRandom::choice() const { return unit(mixed(mixed(mixed(seed_) ^ place_) ^ (kChoiceStream << 32))); }
+std::uint64_t CounterRandom::place() {
+  if (!placed_) place_ = mixed(mixed(mixed(seed_) ^ stage_) ^ key_);
+  placed_ = true;
+  return place_;
+}
+
+double CounterRandom::uniform() { return unit(mixed(place() ^ count_++)); }
+
+double CounterRandom::choice() { return unit(mixed(place() ^ kChoiceStream)); }
 
 // Box and Muller 1958; the second of the pair is thrown away so that a draw stays a function of its number.
 double CounterRandom::normal() {
@@ -62,6 +69,12 @@ double CounterRandom::beta(double a, double b) {
   const double x = gamma(a);
   const double y = gamma(b);
   return x + y > 0.0 ? x / (x + y) : (uniform() < a / (a + b) ? 1.0 : 0.0);
+}
+
+double CounterRandom::binomial(double n, double p) {
+  double successes = 0;
+  for (double trial = 1; trial <= n; ++trial) successes += uniform() < p ? 1 : 0;
+  return successes;
 }
 
 }  // namespace cambium

@@ -1,6 +1,8 @@
 #include "lsystem/expression_compiler.h"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <system_error>
 
 namespace cambium {
@@ -16,17 +18,25 @@ struct BinaryOperator {
 
 // Longer spellings first, so that `<=` is not read as `<`.
 constexpr BinaryOperator kBinary[] = {
-    {"||", 1, Op::kOrJump}, {"&&", 2, Op::kAndJump},      {"==", 3, Op::kEqual}, {"!=", 3, Op::kNotEqual},
+    {"||", 1, Op::kOrJump}, {"&&", 2, Op::kAndJump},      {"==", 3, Op::kEqual}, {"!=", 3, Op::kNotEqual}, {"<>", 3, Op::kNotEqual},
     {"<=", 4, Op::kLessEqual}, {">=", 4, Op::kGreaterEqual}, {"<", 4, Op::kLess},  {">", 4, Op::kGreater},
     {"+", 5, Op::kAdd},     {"-", 5, Op::kSubtract},      {"*", 6, Op::kMultiply}, {"/", 6, Op::kDivide},
-    {"%", 6, Op::kModulo},
+    {"%", 6, Op::kModulo},  {"^", 7, Op::kPower},
 };
 
 const BinaryOperator* binary_operator_at(const Cursor& cursor) {
-  if (cursor.looking_at("-->")) return nullptr;
+  if (cursor.looking_at("-->") || cursor.looking_at("-o>")) return nullptr;
   for (const BinaryOperator& candidate : kBinary)
     if (cursor.looking_at(candidate.text)) return &candidate;
   return nullptr;
+}
+
+// What cpfg's language has for its window, files and sounds. They change nothing of the string: their arguments are read, no more.
+constexpr std::string_view kFileFunctions[] = {"fopen", "fclose", "fflush", "fprintf", "play", "stop", "Display"};
+
+bool draws_or_looks_up(Function function) {
+  return function == Function::kRan || function == Function::kNran || function == Function::kBran || function == Function::kBiran ||
+         function == Function::kSrand || function == Function::kFunc;
 }
 
 }  // namespace
@@ -44,17 +54,10 @@ double read_number(Cursor& cursor) {
   return value;
 }
 
-// One level deeper into the text; keeps hostile nesting off the call stack.
-struct ExpressionCompiler::Nesting {
-  explicit Nesting(ExpressionCompiler& of) : owner(of) {
-    if (++owner.nesting_ > kMaxNesting)
-      owner.cursor_.fail_at(owner.cursor_.position(), "nesting deeper than 200", "a simpler expression");
-  }
-  ~Nesting() { --owner.nesting_; }
-  Nesting(const Nesting&) = delete;
-  Nesting& operator=(const Nesting&) = delete;
-  ExpressionCompiler& owner;
-};
+ExpressionCompiler::Nesting::Nesting(ExpressionCompiler& of) : owner(of) {
+  if (++owner.nesting_ > kMaxNesting)
+    owner.cursor_.fail_at(owner.cursor_.position(), "nesting deeper than 200", "a simpler expression");
+}
 
 std::size_t ExpressionCompiler::emit(Op op, std::uint32_t operand, int change, std::size_t at) {
   code_.instructions.push_back({op, operand});
@@ -64,7 +67,71 @@ std::size_t ExpressionCompiler::emit(Op op, std::uint32_t operand, int change, s
   return code_.instructions.size() - 1;
 }
 
-void ExpressionCompiler::expression() { binary(1); }
+void ExpressionCompiler::emit_constant(double value, std::size_t at) {
+  code_.constants.push_back(value);
+  emit(Op::kConstant, static_cast<std::uint32_t>(code_.constants.size() - 1), 1, at);
+}
+
+void ExpressionCompiler::emit_operator(Op op, std::uint32_t operand, std::size_t operands, std::size_t at) {
+  emit(op, operand, 1 - static_cast<int>(operands), at);
+  fold(operands);
+}
+
+// Macros make expressions of constants (ABOP's #defines do): the last operator and its operands become one constant, unless that
+// fails: then it fails where and when it is needed.
+void ExpressionCompiler::fold(std::size_t operands) {
+  const std::size_t count = operands + 1;
+  if (code_.instructions.size() < count || code_.instructions.size() - count < unfolded_) return;
+  const auto first = code_.instructions.end() - static_cast<std::ptrdiff_t>(count);
+  if (!std::all_of(first, code_.instructions.end() - 1, [](const Instruction& i) { return i.op == Op::kConstant; })) return;
+  Code piece;
+  piece.instructions.assign(first, code_.instructions.end());
+  piece.places.assign(code_.places.end() - static_cast<std::ptrdiff_t>(count), code_.places.end());
+  piece.constants = {code_.constants.end() - static_cast<std::ptrdiff_t>(operands), code_.constants.end()};
+  for (std::uint32_t i = 0; i < operands; ++i) piece.instructions[i].operand = i;
+  piece.stack_size = operands;
+  double value = 0;
+  try {
+    value = constant_value(piece, {});
+  } catch (const InputError&) {
+    return;
+  }
+  code_.constants.resize(code_.constants.size() - operands);
+  code_.constants.push_back(value);
+  code_.instructions.resize(code_.instructions.size() - count);
+  code_.instructions.push_back({Op::kConstant, static_cast<std::uint32_t>(code_.constants.size() - 1)});
+  const Place place = code_.places.back();
+  code_.places.resize(code_.instructions.size());
+  code_.places.back() = place;
+}
+
+void ExpressionCompiler::expression() {
+  const Nesting nesting(*this);
+  binary(1);
+  cursor_.skip_space();
+  const std::size_t at = cursor_.position();
+  if (cursor_.peek() == '?') choice(at);
+}
+
+// Behind the condition of `a ? b : c`.
+void ExpressionCompiler::choice(std::size_t at) {
+  cursor_.advance();
+  const std::size_t otherwise = emit(Op::kJumpIfZero, 0, -1, at);
+  expression();
+  const std::size_t end = emit(Op::kJump, 0, -1, at);
+  cursor_.expect(':', "of '?'");
+  patch(otherwise);
+  expression();
+  patch(end);
+}
+
+void ExpressionCompiler::lazy(Op op, int precedence, std::size_t at) {
+  if (op == Op::kAndJump) emit(Op::kTruth, 0, 0, at);
+  const std::size_t jump = emit(op, 0, -1, at);
+  binary(precedence + 1);
+  emit(Op::kTruth, 0, 0, at);
+  patch(jump);
+}
 
 void ExpressionCompiler::binary(int lowest) {
   const Nesting nesting(*this);
@@ -76,14 +143,10 @@ void ExpressionCompiler::binary(int lowest) {
     const std::size_t at = cursor_.position();
     cursor_.advance(found->text.size());
     if (found->op == Op::kAndJump || found->op == Op::kOrJump) {
-      if (found->op == Op::kAndJump) emit(Op::kTruth, 0, 0, at);
-      const std::size_t jump = emit(found->op, 0, -1, at);
-      binary(found->precedence + 1);
-      emit(Op::kTruth, 0, 0, at);
-      patch(jump);
+      lazy(found->op, found->precedence, at);
     } else {
       binary(found->precedence + 1);
-      emit(found->op, 0, -1, at);
+      emit_operator(found->op, 0, 2, at);
     }
   }
 }
@@ -96,18 +159,11 @@ void ExpressionCompiler::unary() {
   if ((c == '-' && !cursor_.looking_at("-->")) || c == '+' || (c == '!' && cursor_.peek(1) != '=')) {
     cursor_.advance();
     unary();
-    if (c == '-') emit(Op::kNegate, 0, 0, at);
-    if (c == '!') emit(Op::kNot, 0, 0, at);
+    if (c == '-') emit_operator(Op::kNegate, 0, 1, at);
+    if (c == '!') emit_operator(Op::kNot, 0, 1, at);
     return;
   }
   primary();
-  cursor_.skip_space();
-  if (cursor_.peek() == '^') {
-    const std::size_t power = cursor_.position();
-    cursor_.advance();
-    unary();
-    emit(Op::kPower, 0, -1, power);
-  }
 }
 
 void ExpressionCompiler::primary() {
@@ -115,15 +171,11 @@ void ExpressionCompiler::primary() {
   if (cursor_.peek() == '(') {
     cursor_.advance();
     const Cursor::LineEnds inside(cursor_, true);
-    binary(1);
+    expression();
     cursor_.expect_close(at, "or an operator");
     return;
   }
-  if (is_digit(cursor_.peek()) || (cursor_.peek() == '.' && is_digit(cursor_.peek(1)))) {
-    code_.constants.push_back(read_number(cursor_));
-    emit(Op::kConstant, static_cast<std::uint32_t>(code_.constants.size() - 1), 1, at);
-    return;
-  }
+  if (is_digit(cursor_.peek()) || (cursor_.peek() == '.' && is_digit(cursor_.peek(1)))) return emit_constant(read_number(cursor_), at);
   const std::string name = cursor_.word();
   if (name.empty()) cursor_.fail("an expression");
   cursor_.skip_space();
@@ -131,46 +183,108 @@ void ExpressionCompiler::primary() {
   load(name, at);
 }
 
-void ExpressionCompiler::call(const std::string& name, std::size_t begin) {
-  const FunctionInfo* function = find_function(name);
-  if (!function) {
-    if (name == "func") cursor_.fail_at(begin, "'func'", "no .func curves, which are not supported yet");
-    cursor_.fail_at(begin, "'" + name + "'", "the name of a function");
-  }
-  const std::size_t open = cursor_.position();
+// From the '(' at `open` to its ')'; how many there were.
+std::uint32_t ExpressionCompiler::arguments(std::size_t open) {
   cursor_.advance();
   const Cursor::LineEnds inside(cursor_, true);
-  int count = 0;
+  std::uint32_t count = 0;
   cursor_.skip_space();
   if (cursor_.peek() != ')') {
     do {
-      binary(1);
+      expression();
       ++count;
     } while (cursor_.accept(','));
   }
   cursor_.expect_close(open, "or ','");
-  if (count != function->arity)
-    cursor_.fail_at(begin, "'" + name + "' with " + std::to_string(count) + (count == 1 ? " argument" : " arguments"),
-                    std::to_string(function->arity));
-  emit(Op::kCall, static_cast<std::uint32_t>(function->function) | static_cast<std::uint32_t>(count) << 8, 1 - count, begin);
+  return count;
 }
 
-std::optional<std::uint32_t> ExpressionCompiler::array_named(const std::string& name) const {
-  if (scope_.arrays)
-    for (std::size_t i = 0; i < scope_.arrays->size(); ++i)
-      if ((*scope_.arrays)[i].name == name) return static_cast<std::uint32_t>(i);
-  return std::nullopt;
+void ExpressionCompiler::call(const std::string& name, std::size_t begin) {
+  if (name == "printf") return print_call(begin);
+  if (std::find(std::begin(kFileFunctions), std::end(kFileFunctions), name) != std::end(kFileFunctions)) {
+    file_call();
+    return emit_constant(0, begin);
+  }
+  const FunctionInfo* function = find_function(name);
+  if (!function) cursor_.fail_at(begin, "'" + name + "'", "the name of a function");
+  if (function->function == Function::kFunc && (!scope_.system || scope_.system->tables.curves.empty()))
+    cursor_.fail_at(begin, "'func' without curves", "a .v, .fset or .func file beside the model");
+  const std::uint32_t count = arguments(cursor_.position());
+  if (static_cast<int>(count) != function->arity)
+    cursor_.fail_at(begin, "'" + name + "' with " + std::to_string(count) + (count == 1 ? " argument" : " arguments"),
+                    std::to_string(function->arity));
+  const std::uint32_t operand = static_cast<std::uint32_t>(function->function) | count << 8;
+  if (function->function == Function::kSrand) code_.has_effects = true;
+  if (draws_or_looks_up(function->function))
+    emit(Op::kCall, operand, 1 - function->arity, begin);
+  else
+    emit_operator(Op::kCall, operand, count, begin);
+}
+
+std::string ExpressionCompiler::quoted_text() {
+  cursor_.skip_space();
+  const std::size_t begin = cursor_.position();
+  cursor_.expect('"', "before a text");
+  std::string text;
+  while (cursor_.peek() != '"') {
+    if (cursor_.at_line_end()) cursor_.fail_at(begin, "a text without an end", "'\"'");
+    const bool escape = cursor_.peek() == '\\' && cursor_.peek(1) != '\n' && cursor_.peek(1) != '\0';
+    for (int i = escape ? 2 : 1; i > 0; --i) {
+      text += cursor_.peek();
+      cursor_.advance();
+    }
+  }
+  cursor_.advance();
+  return text;
+}
+
+void ExpressionCompiler::print_call(std::size_t begin) {
+  const std::size_t open = cursor_.position();
+  cursor_.advance();
+  const Cursor::LineEnds inside(cursor_, true);
+  PrintCall print;
+  print.format = quoted_text();
+  for (; cursor_.accept(','); ++print.values) expression();
+  cursor_.expect_close(open, "or ','");
+  code_.has_effects = true;
+  const int change = 1 - static_cast<int>(print.values);
+  code_.prints.push_back(std::move(print));
+  emit(Op::kPrint, static_cast<std::uint32_t>(code_.prints.size() - 1), change, begin);
+}
+
+// The arguments are checked, and that is all.
+void ExpressionCompiler::file_call() {
+  const std::size_t open = cursor_.position();
+  cursor_.advance();
+  const Cursor::LineEnds inside(cursor_, true);
+  Code unused;
+  cursor_.skip_space();
+  while (cursor_.peek() != ')') {
+    if (cursor_.peek() == '"')
+      quoted_text();
+    else
+      ExpressionCompiler(cursor_, scope_, unused).expression();
+    if (!cursor_.accept(',')) break;
+    cursor_.skip_space();
+  }
+  cursor_.expect_close(open, "or ','");
+}
+
+const std::uint32_t* ExpressionCompiler::array_named(const std::string& name) const {
+  if (!scope_.system) return nullptr;
+  const auto found = scope_.system->arrays.find(name);
+  return found == scope_.system->arrays.end() ? nullptr : &found->second;
 }
 
 // Both `a[i][j]` and `a[i,j]`.
 void ExpressionCompiler::indices(std::uint32_t array) {
-  const std::size_t wanted = (*scope_.arrays)[array].sizes.size();
+  const std::size_t wanted = dimensions(array);
   for (std::size_t given = 0; given < wanted;) {
     cursor_.expect('[', "and an index");
     const Cursor::LineEnds inside(cursor_, true);
     do {
       if (given == wanted) cursor_.fail("']'");
-      binary(1);
+      expression();
       ++given;
     } while (cursor_.accept(','));
     cursor_.expect(']', "after the index");
@@ -182,16 +296,20 @@ void ExpressionCompiler::load(const std::string& name, std::size_t begin) {
     emit(Op::kLocal, local->second, 1, begin);
     return;
   }
-  if (const auto array = array_named(name)) {
+  if (const std::uint32_t* array = array_named(name)) {
     indices(*array);
-    emit(Op::kElement, *array, 1 - static_cast<int>((*scope_.arrays)[*array].sizes.size()), begin);
+    emit(Op::kElement, *array, 1 - static_cast<int>(dimensions(*array)), begin);
     return;
   }
-  if (scope_.globals) {
-    if (const auto global = scope_.globals->find(name); global != scope_.globals->end()) {
+  if (scope_.system) {
+    const auto& variables = scope_.system->variables;
+    if (const auto global = variables.find(name); global != variables.end()) {
       emit(Op::kGlobal, global->second, 1, begin);
       return;
     }
+    const auto& curves = scope_.system->tables.curves;
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      if (curves[i].name() == name) return emit_constant(static_cast<double>(i + 1), begin);
   }
   cursor_.fail_at(begin, "'" + name + "'", "a number, or the name of a parameter or variable");
 }
@@ -201,11 +319,13 @@ void ExpressionCompiler::store(const std::string& name, std::size_t at) {
     emit(Op::kStoreLocal, local->second, -1, at);
     return;
   }
-  if (scope_.globals) {
-    const auto global = scope_.globals->find(name);
-    if (global != scope_.globals->end() || scope_.assigns_globals) {
-      const std::uint32_t slot = global != scope_.globals->end() ? global->second : (*scope_.global_slots)++;
-      scope_.globals->emplace(name, slot);
+  if (scope_.system) {
+    auto& variables = scope_.system->variables;
+    const auto global = variables.find(name);
+    if (global != variables.end() || scope_.assigns_globals) {
+      const std::uint32_t slot = global != variables.end() ? global->second : scope_.system->slots++;
+      variables.emplace(name, slot);
+      code_.has_effects = true;
       emit(Op::kStoreGlobal, slot, -1, at);
       return;
     }
@@ -213,135 +333,6 @@ void ExpressionCompiler::store(const std::string& name, std::size_t at) {
   const auto slot = static_cast<std::uint32_t>(scope_.locals.size());
   scope_.locals.emplace(name, slot);
   emit(Op::kStoreLocal, slot, -1, at);
-}
-
-void ExpressionCompiler::block() {
-  const Nesting nesting(*this);
-  const Cursor::LineEnds inside(cursor_, true);
-  cursor_.skip_space();
-  const std::size_t begin = cursor_.position();
-  cursor_.expect('{', "before statements");
-  while (!cursor_.accept('}')) {
-    if (cursor_.at_end()) cursor_.fail_at(begin, "'{' without an end", "'}'");
-    statement();
-  }
-}
-
-void ExpressionCompiler::statement() {
-  const Nesting nesting(*this);
-  cursor_.skip_space();
-  const std::size_t begin = cursor_.position();
-  if (cursor_.peek() == '{') return block();
-  if (cursor_.accept(';')) return;
-  const std::string keyword = cursor_.word();
-  if (keyword == "if") {
-    cursor_.expect('(', "after 'if'");
-    expression();
-    cursor_.expect(')', "after the condition");
-    const std::size_t otherwise = emit(Op::kJumpIfZero, 0, -1, begin);
-    statement();
-    cursor_.skip_space();
-    const std::size_t after = cursor_.position();
-    if (cursor_.word() == "else") {
-      const std::size_t end = emit(Op::kJump, 0, 0, after);
-      patch(otherwise);
-      statement();
-      patch(end);
-    } else {
-      cursor_.seek(after);
-      patch(otherwise);
-    }
-    return;
-  }
-  if (keyword == "while") {
-    cursor_.expect('(', "after 'while'");
-    const auto top = static_cast<std::uint32_t>(code_.instructions.size());
-    expression();
-    cursor_.expect(')', "after the condition");
-    const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
-    statement();
-    emit(Op::kJump, top, 0, begin);
-    patch(end);
-    return;
-  }
-  if (keyword == "for") {
-    cursor_.expect('(', "after 'for'");
-    assignment();
-    cursor_.expect(';', "after the first part of 'for'");
-    const auto top = static_cast<std::uint32_t>(code_.instructions.size());
-    expression();
-    cursor_.expect(';', "after the condition");
-    const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
-    const std::size_t body = emit(Op::kJump, 0, 0, begin);
-    const auto step = static_cast<std::uint32_t>(code_.instructions.size());
-    assignment();
-    cursor_.expect(')', "after the step of 'for'");
-    emit(Op::kJump, top, 0, begin);
-    patch(body);
-    statement();
-    emit(Op::kJump, step, 0, begin);
-    patch(end);
-    return;
-  }
-  if (keyword == "printf") {
-    print_call();
-  } else {
-    cursor_.skip_space();
-    if (!keyword.empty() && cursor_.peek() == '(') {
-      call(keyword, begin);
-      emit(Op::kDrop, 0, -1, begin);
-    } else {
-      cursor_.seek(begin);
-      assignment();
-    }
-  }
-  cursor_.expect(';', "after the statement");
-}
-
-void ExpressionCompiler::assignment() {
-  cursor_.skip_space();
-  const std::size_t begin = cursor_.position();
-  const std::string name = cursor_.word();
-  if (name.empty()) cursor_.fail("a statement");
-  const auto array = scope_.locals.count(name) ? std::nullopt : array_named(name);
-  if (array) indices(*array);
-  cursor_.skip_space();
-  const std::size_t at = cursor_.position();
-  Op combined = Op::kConstant;
-  const char c = cursor_.peek();
-  if (!array && cursor_.peek(1) == '=' && (c == '+' || c == '-' || c == '*' || c == '/')) {
-    combined = c == '+' ? Op::kAdd : c == '-' ? Op::kSubtract : c == '*' ? Op::kMultiply : Op::kDivide;
-    load(name, begin);
-    cursor_.advance(2);
-  } else {
-    cursor_.expect('=', "of an assignment");
-    if (cursor_.peek() == '=') cursor_.fail("an expression");
-  }
-  expression();
-  if (combined != Op::kConstant) emit(combined, 0, -1, at);
-  if (array)
-    emit(Op::kStoreElement, *array, -1 - static_cast<int>((*scope_.arrays)[*array].sizes.size()), begin);
-  else
-    store(name, begin);
-}
-
-// A library never prints: the arguments are checked, evaluated and dropped.
-void ExpressionCompiler::print_call() {
-  cursor_.expect('(', "after 'printf'");
-  cursor_.skip_space();
-  const std::size_t begin = cursor_.position();
-  cursor_.expect('"', "before the text to print");
-  while (cursor_.peek() != '"') {
-    if (cursor_.at_line_end()) cursor_.fail_at(begin, "a text without an end", "'\"'");
-    cursor_.advance(cursor_.peek() == '\\' && cursor_.peek(1) != '\n' && cursor_.peek(1) != '\0' ? 2 : 1);
-  }
-  cursor_.advance();
-  while (cursor_.accept(',')) {
-    const std::size_t at = cursor_.position();
-    expression();
-    emit(Op::kDrop, 0, -1, at);
-  }
-  cursor_.expect(')', "after the arguments of 'printf'");
 }
 
 }  // namespace cambium

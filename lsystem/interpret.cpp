@@ -1,9 +1,10 @@
 // From a string of modules to a plant skeleton.
 #include "lsystem/lsystem.h"
 #include "lsystem/program.h"
-#include "lsystem/rewriting.h"
+#include "lsystem/rewriting_pass.h"
 #include "lsystem/turtle.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -249,16 +250,14 @@ class Interpreter {
 
 Turtled interpret(const ModuleString& string, const LSystem& system, const TurtleOptions& options) {
   const LSystemProgram& program = system.program();
-  const std::string file = program.files.empty() ? std::string() : program.files[0];
-  if (program.homomorphism.empty()) return Interpreter(string, file, options).run();
+  const std::string file = program.tables.files.empty() ? std::string() : program.tables.files[0];
+  const auto has_homomorphism = [](const System& one) { return !one.homomorphism.empty(); };
+  if (std::none_of(program.systems.begin(), program.systems.end(), has_homomorphism)) return Interpreter(string, file, options).run();
   ModuleString drawn;
-  drawn.symbol = string.symbol;
-  drawn.first = string.first;
-  drawn.parameters = string.parameters;
-  const RunOptions run;
-  Rewriter rewriter(program, string.seed, DeriveOptions{}.max_modules, run);
-  if (string.variables.size() == rewriter.variables().size()) rewriter.variables() = string.variables;
-  rewriter.expand(drawn, program.homomorphism, Stage::kHomomorphism, 0);
+  RewritingPass pass(program, DeriveOptions{}.max_modules, {});
+  pass.seed = program.main().homomorphism_seed.value_or(string.seed);
+  if (string.variables.size() == pass.variables.size()) pass.variables = string.variables;
+  pass.rewrite(string, Stage::kHomomorphism, drawn);
   drawn.names = program.symbols.names();
   return Interpreter(drawn, file, options).run();
 }

@@ -1,4 +1,5 @@
 // The sections of an L-system file.
+#include "lsystem/array_definitions.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/module_parser.h"
 #include "lsystem/preprocessor.h"
@@ -7,12 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace cambium {
 namespace {
-
-constexpr std::size_t kMaxElements = 1'000'000;
 
 bool same_modules(const std::vector<ContextModule>& a, const std::vector<ContextModule>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ContextModule& x, const ContextModule& y) {
@@ -20,42 +20,55 @@ bool same_modules(const std::vector<ContextModule>& a, const std::vector<Context
   });
 }
 
+constexpr int kMaxDepth = 100'000;
+
 class Parser {
  public:
-  explicit Parser(const SourceText& source) : source_(source), cursor_(source) {}
+  Parser(const SourceText& source, const std::filesystem::path& file) : source_(source), cursor_(source) {
+    program_->tables.files = source.files;
+    // Reading them costs, and a model without functions must not fail on a curve that nothing asks for.
+    if (source.text.find("func") != std::string::npos) program_->tables.curves = curves_beside(file);
+    SymbolTable& symbols = program_->symbols;
+    program_->open = symbols.number("[");
+    program_->close = symbols.number("]");
+    program_->cut = symbols.number("%");
+    program_->call = symbols.number("?");
+    program_->end_call = symbols.number("$");
+    program_->rest = symbols.number("=");
+  }
 
-  /// The next L-system of the file, or nullptr at its end.
-  std::shared_ptr<LSystemProgram> next() {
-    cursor_.skip_blank_lines();
-    if (cursor_.at_end()) return nullptr;
-    const std::size_t begin = cursor_.position();
-    program_ = std::make_shared<LSystemProgram>();
-    program_->files = source_.files;
-    program_->place = cursor_.place();
-    program_->open = program_->symbols.number("[");
-    program_->close = program_->symbols.number("]");
-    program_->cut = program_->symbols.number("%");
-    scope_ = Scope{};
-    names_.clear();
-    global_slots_ = 0;
-    axiom_seen_ = false;
-    rules_ = &program_->productions;
-    scope_.globals = &names_;
-    scope_.global_slots = &global_slots_;
-    scope_.arrays = &program_->arrays;
-    if (lower_case(cursor_.word()) != "lsystem") cursor_.fail_at(begin, cursor_.describe(begin), "'lsystem:'");
-    cursor_.expect(':', "after 'lsystem'");
-    program_->label = rest_of_line();
-    while (section(begin)) {
+  std::shared_ptr<LSystemProgram> read() {
+    for (cursor_.skip_blank_lines(); !cursor_.at_end(); cursor_.skip_blank_lines()) read_system();
+    if (program_->systems.empty()) cursor_.fail("'lsystem:'");
+    program_->initial_globals.resize(slots_, 0.0);
+    for (std::size_t i = 0; i < program_->systems.size(); ++i) {
+      System& system = program_->systems[i];
+      system.ignored = ignored(context_lists_[i]);
+      for (RuleSet* rules : {&system.productions, &system.decomposition, &system.homomorphism}) index(*rules);
     }
-    if (!axiom_seen_) cursor_.fail_at(begin, "an L-system without an axiom", "'axiom:'");
-    program_->initial_globals.resize(global_slots_, 0.0);
-    set_context_symbols();
-    for (RuleSet* rules : {&program_->productions, &program_->decomposition, &program_->homomorphism}) index(*rules);
     return std::move(program_);
   }
 
  private:
+  void read_system() {
+    const std::size_t begin = cursor_.position();
+    program_->systems.emplace_back();
+    system_ = &program_->systems.back();
+    system_->place = cursor_.place();
+    names_.push_back(std::make_unique<SystemNames>(SystemNames{{}, {}, program_->tables, slots_}));
+    scope_ = Scope{};
+    scope_.system = names_.back().get();
+    axiom_seen_ = false;
+    context_lists_.emplace_back();
+    rules_ = &system_->productions;
+    if (lower_case(cursor_.word()) != "lsystem") cursor_.fail_at(begin, cursor_.describe(begin), "'lsystem:'");
+    cursor_.expect(':', "after 'lsystem'");
+    system_->label = rest_of_line();
+    while (section(begin)) {
+    }
+    if (!axiom_seen_) cursor_.fail_at(begin, "an L-system without an axiom", "'axiom:'");
+  }
+
   std::string rest_of_line() {
     const std::size_t begin = cursor_.position();
     while (!cursor_.at_line_end()) cursor_.advance();
@@ -82,57 +95,94 @@ class Parser {
       return false;
     }
     if (keyword == "homomorphism" || keyword == "interpretation" || keyword == "decomposition") {
-      rules_ = keyword == "decomposition" ? &program_->decomposition : &program_->homomorphism;
-      cursor_.accept(':');
-      rest_of_line();
+      rules_ = keyword == "decomposition" ? &system_->decomposition : &system_->homomorphism;
+      rules_section();
       return true;
     }
-    if (keyword == "derivation" || keyword == "maximum" || keyword == "ring") {
-      cursor_.skip_space();
-      const std::string second = lower_case(cursor_.word());
-      const char* wanted = keyword == "derivation" ? "length" : keyword == "maximum" ? "depth" : "lsystem";
-      if (second == wanted) keyword += " " + second;
-    }
+    if (keyword == "derivation" || keyword == "maximum" || keyword == "ring" || keyword == "start" || keyword == "end")
+      keyword += second_word(keyword);
     cursor_.skip_space();
+    if (keyword == "ring lsystem" && cursor_.at_line_end()) {
+      system_->ring = true;
+      return true;
+    }
     if (is_keyword(keyword.substr(0, keyword.find(' '))) && cursor_.peek() == ':' && keyed(keyword, begin)) return true;
     cursor_.seek(begin);
-    add(ModuleParser(cursor_, *program_, scope_).production(), begin);
+    add(ModuleParser(cursor_, *program_, scope_).production());
     return true;
+  }
+
+  // The rest of a keyword of two words, in one spelling; nothing if `first` stands alone.
+  std::string second_word(const std::string& first) {
+    cursor_.skip_space();
+    const std::size_t before = cursor_.position();
+    const std::string second = lower_case(cursor_.word());
+    if (first == "derivation" && second == "length") return " length";
+    if (first == "maximum" && second == "depth") return " depth";
+    if (first == "ring" && second == "lsystem") return " lsystem";
+    if (first == "ring" && second == "l" && cursor_.looking_at("-")) {
+      cursor_.advance();
+      if (lower_case(cursor_.word()) == "system") return " lsystem";
+    }
+    if ((first == "start" || first == "end") && second == "each") return "each";
+    cursor_.seek(before);
+    return {};
+  }
+
+  // Behind `decomposition` or `homomorphism`: a colon and cpfg's `warnings` or `no warnings` may stand there.
+  void rules_section() {
+    cursor_.accept(':');
+    cursor_.skip_space();
+    const std::size_t at = cursor_.position();
+    std::string word = lower_case(cursor_.word());
+    cursor_.skip_space();
+    if (word == "no") word = lower_case(cursor_.word());
+    if (!word.empty() && word != "warnings") cursor_.fail_at(at, cursor_.describe(at), "'warnings', 'no warnings' or the end of the line");
+    end_line();
   }
 
   // The section of `keyword`, at its colon; false if it is no keyword that takes one.
   bool keyed(const std::string& keyword, std::size_t begin) {
     if (keyword == "production" || keyword == "productions") {
       cursor_.advance();
-      rules_ = &program_->productions;
+      rules_ = &system_->productions;
       end_line();
     } else if (keyword == "seed") {
-      program_->seed = static_cast<std::uint64_t>(whole_number("a seed", 9e15));
+      const auto seed = static_cast<std::uint64_t>(whole_number("a seed", 9e15));
+      if (rules_ == &system_->homomorphism)
+        system_->homomorphism_seed = seed;
+      else
+        system_->seed = seed;
     } else if (keyword == "derivation length") {
-      program_->derivation_length = static_cast<int>(whole_number("a number of steps", 1e9));
+      system_->derivation_length = static_cast<int>(whole_number("a number of steps", 1e9));
     } else if (keyword == "maximum depth") {
-      rules_->max_depth = static_cast<int>(whole_number("a depth up to 1000", 1000));
+      const int depth = static_cast<int>(whole_number("a depth up to 100000", kMaxDepth));
+      // Before any section it holds for both.
+      if (rules_ == &system_->productions) system_->decomposition.max_depth = system_->homomorphism.max_depth = depth;
+      rules_->max_depth = depth;
     } else if (keyword == "ring lsystem") {
-      if (whole_number("0 or 1", 1) != 0) cursor_.fail_at(begin, "'ring lsystem', which is not supported yet", "no ring");
+      system_->ring = whole_number("0 or 1", 1) != 0;
     } else if (keyword == "consider" || keyword == "ignore") {
       cursor_.advance();
       context_symbols(keyword == "consider", begin);
     } else if (keyword == "define") {
       cursor_.advance();
-      define_arrays();
+      std::vector<const SystemNames*> earlier;
+      for (std::size_t i = 0; i + 1 < names_.size(); ++i) earlier.push_back(names_[i].get());
+      ArrayDefinitions(cursor_, scope_, earlier, program_->initial_globals).read();
     } else if (keyword == "axiom") {
       if (axiom_seen_) cursor_.fail_at(begin, "a second axiom", "one");
       axiom_seen_ = true;
       cursor_.advance();
       Scope scope = scope_;
-      program_->axiom = ModuleParser(cursor_, *program_, scope_).successor(scope);
+      system_->axiom = ModuleParser(cursor_, *program_, scope_).successor(scope);
       end_line();
     } else if (keyword == "start" || keyword == "starteach" || keyword == "endeach" || keyword == "end") {
       cursor_.advance();
-      statements(keyword == "start"       ? program_->start
-                 : keyword == "starteach" ? program_->start_each
-                 : keyword == "endeach"   ? program_->end_each
-                                          : program_->end);
+      statements(keyword == "start"       ? system_->start
+                 : keyword == "starteach" ? system_->start_each
+                 : keyword == "endeach"   ? system_->end_each
+                                          : system_->end);
     } else {
       return false;
     }
@@ -146,9 +196,7 @@ class Parser {
     Code code;
     Scope none;
     ExpressionCompiler(cursor_, none, code).expression();
-    CounterRandom random(0);
-    const std::vector<ArrayInfo> no_arrays;
-    const double value = Machine(source_.files, no_arrays, random).value(code, nullptr);
+    const double value = constant_value(code, program_->tables);
     if (value < 0 || value > most || value != std::floor(value)) {
       char number[40];
       std::snprintf(number, sizeof number, "%.9g", value);
@@ -166,100 +214,40 @@ class Parser {
     program_->block_locals = std::max(program_->block_locals, static_cast<std::uint32_t>(scope.locals.size()));
   }
 
+  // Single characters, as cpfg has them: `~` and `@` stand for all symbols that begin with them. Commas are symbols, too.
   void context_symbols(bool consider, std::size_t begin) {
-    if (context_list_seen_ == program_.get()) cursor_.fail_at(begin, "a second list of context symbols", "one");
-    context_list_seen_ = program_.get();
-    considers_ = consider;
-    listed_.clear();
-    while (true) {
-      cursor_.skip_space();
-      if (cursor_.at_line_end()) break;
-      const auto name = ModuleParser(cursor_, *program_, scope_).symbol();
-      if (!name) cursor_.fail("a symbol");
-      listed_.push_back(program_->symbols.number(*name));
+    ContextList& list = context_lists_.back();
+    if (list.seen) cursor_.fail_at(begin, "a second list of context symbols", "one");
+    list.seen = true;
+    list.considers = consider;
+    for (cursor_.skip_space(); !cursor_.at_line_end(); cursor_.skip_space()) {
+      const char c = cursor_.peek();
+      if (static_cast<unsigned char>(c) <= ' ' || static_cast<unsigned char>(c) >= 0x7f) cursor_.fail("a symbol");
+      list.symbols.push_back(c);
+      cursor_.advance();
     }
   }
 
-  void set_context_symbols() {
-    const bool listed = context_list_seen_ == program_.get();
-    program_->ignored.assign(program_->symbols.names().size(), listed && considers_);
-    if (listed)
-      for (const std::uint16_t symbol : listed_) program_->ignored[symbol] = !considers_;
-    context_list_seen_ = nullptr;
+  struct ContextList {
+    bool seen = false;
+    bool considers = false;
+    std::string symbols;
+  };
+
+  std::vector<bool> ignored(const ContextList& list) const {
+    std::vector<bool> out;
+    for (const std::string& name : program_->symbols.names())
+      out.push_back(list.seen && (list.symbols.find(name[0]) != std::string::npos) != list.considers);
+    return out;
   }
 
-  // define: { array a[2,3] = {1,2,3, 4,5,6}; }
-  void define_arrays() {
-    const Cursor::LineEnds inside(cursor_, true);
-    cursor_.expect('{', "after 'define:'");
-    while (!cursor_.accept('}')) {
-      cursor_.skip_space();
-      const std::size_t at = cursor_.position();
-      if (cursor_.word() != "array") cursor_.fail_at(at, cursor_.describe(at), "'array' or '}'");
-      do {
-        define_array();
-      } while (cursor_.accept(','));
-      cursor_.expect(';', "after the array");
-    }
-  }
-
-  void define_array() {
-    cursor_.skip_space();
-    const std::size_t at = cursor_.position();
-    ArrayInfo array;
-    array.name = cursor_.word();
-    if (array.name.empty()) cursor_.fail("the name of an array");
-    array.first = global_slots_;
-    std::size_t count = 1;
-    cursor_.expect('[', "and the array's size");
-    while (true) {
-      cursor_.skip_space();
-      const std::size_t size_at = cursor_.position();
-      const double size = read_number(cursor_);
-      if (size < 1 || size != std::floor(size) || size * static_cast<double>(count) > kMaxElements)
-        cursor_.fail_at(size_at, cursor_.describe(size_at), "a size of 1 to 1000000 elements in all");
-      array.sizes.push_back(static_cast<std::uint32_t>(size));
-      count *= array.sizes.back();
-      if (cursor_.accept(',')) continue;
-      cursor_.expect(']', "after the array's size");
-      if (!cursor_.accept('[')) break;
-    }
-    if (names_.count(array.name) ||
-        std::any_of(program_->arrays.begin(), program_->arrays.end(),
-                    [&](const ArrayInfo& other) { return other.name == array.name; }))
-      cursor_.fail_at(at, "'" + array.name + "' twice", "different names");
-    global_slots_ += static_cast<std::uint32_t>(count);
-    if (global_slots_ > kMaxElements) cursor_.fail_at(at, "more than 1000000 array elements", "smaller arrays");
-    program_->initial_globals.resize(global_slots_, 0.0);
-    if (cursor_.accept('=')) {
-      // Inner braces only group; values fill the array in row-major order and the rest stays 0.
-      cursor_.expect('{', "before the array's values");
-      std::size_t given = 0;
-      int depth = 1;
-      while (depth > 0) {
-        cursor_.skip_space();
-        if (cursor_.accept('{')) {
-          ++depth;
-        } else if (cursor_.accept('}')) {
-          --depth;
-        } else if (!(given > 0 && cursor_.accept(','))) {
-          const std::size_t value_at = cursor_.position();
-          const bool negative = cursor_.accept('-');
-          cursor_.skip_space();
-          const double value = read_number(cursor_);
-          if (given == count) cursor_.fail_at(value_at, "more values than the array holds", std::to_string(count));
-          program_->initial_globals[array.first + given++] = negative ? -value : value;
-        }
-      }
-    }
-    program_->arrays.push_back(std::move(array));
-  }
-
-  void add(Production production, std::size_t begin) {
-    const bool has_context = !production.left.empty() || !production.right.empty();
-    if (has_context && rules_ != &program_->productions)
-      cursor_.fail_at(begin, "a production with a context", "a context-free one in this section");
-    rules_->has_context = rules_->has_context || has_context;
+  void add(Production production) {
+    const bool multiple = production.predecessor.size() > 1;
+    bool effects = false;
+    for (const Code* code : {&production.before, &production.condition, &production.after, &production.weight, &production.successor.parameters})
+      effects = effects || code->has_effects;
+    rules_->has_context = rules_->has_context || !production.left.empty() || !production.right.empty();
+    rules_->in_order = rules_->in_order || multiple || effects;
     rules_->productions.push_back(std::move(production));
   }
 
@@ -267,17 +255,14 @@ class Parser {
     rules.of_symbol.resize(program_->symbols.names().size());
     for (std::uint32_t i = 0; i < rules.productions.size(); ++i) {
       Production& production = rules.productions[i];
-      auto& siblings = rules.of_symbol[production.predecessor.symbol];
+      auto& siblings = rules.of_symbol[production.predecessor[0].symbol];
       production.group = i;
       // Only a few productions share a predecessor; a hostile file with many is cut off to keep this linear.
       const std::size_t first = siblings.size() > 256 ? siblings.size() - 256 : 0;
       for (std::size_t k = first; k < siblings.size(); ++k) {
-        const Production& other = rules.productions[siblings[k]];
-        if (other.predecessor.arity == production.predecessor.arity && same_modules(other.left, production.left) &&
-            same_modules(other.right, production.right)) {
-          production.group = other.group;
-          break;
-        }
+        if (!same_modules(rules.productions[siblings[k]].predecessor, production.predecessor)) continue;
+        production.group = rules.productions[siblings[k]].group;
+        break;
       }
       siblings.push_back(i);
     }
@@ -285,30 +270,37 @@ class Parser {
 
   const SourceText& source_;
   Cursor cursor_;
-  std::shared_ptr<LSystemProgram> program_;
+  std::shared_ptr<LSystemProgram> program_ = std::make_shared<LSystemProgram>();
+  System* system_ = nullptr;                          // the one being read
+  std::vector<std::unique_ptr<SystemNames>> names_;   // of each L-system
+  std::uint32_t slots_ = 0;
   Scope scope_;
-  std::unordered_map<std::string, std::uint32_t> names_;
-  std::uint32_t global_slots_ = 0;
   bool axiom_seen_ = false;
   RuleSet* rules_ = nullptr;
-  const LSystemProgram* context_list_seen_ = nullptr;
-  bool considers_ = false;
-  std::vector<std::uint16_t> listed_;
+  std::vector<ContextList> context_lists_;            // of each L-system
 };
 
 }  // namespace
 
+const System* LSystemProgram::numbered(double label) const {
+  for (const System& system : systems) {
+    char* end = nullptr;
+    const double number = std::strtod(system.label.c_str(), &end);
+    if (end != system.label.c_str() && *end == '\0' && number == std::trunc(label)) return &system;
+  }
+  return nullptr;
+}
+
 LSystem LSystem::parse(std::string_view text, const std::filesystem::path& file, const std::optional<std::string>& label) {
   const SourceText source = preprocess(text, file);
-  Parser parser(source);
-  LSystem system;
-  bool any = false;
-  while (auto program = parser.next()) {
-    any = true;
-    if (!system.program_ && (!label || program->label == *label)) system.program_ = std::move(program);
+  auto program = Parser(source, file).read();
+  if (label) {
+    const auto named = std::find_if(program->systems.begin(), program->systems.end(), [&](const System& s) { return s.label == *label; });
+    if (named == program->systems.end()) throw InputError({file.string(), 0, 0}, "no L-system '" + *label + "'", "one of the file's labels");
+    program->main_index = static_cast<std::size_t>(named - program->systems.begin());
   }
-  if (!any) Cursor(source).fail_at(source.text.size(), "the end of the file", "'lsystem:'");
-  if (!system.program_) throw InputError({file.string(), 0, 0}, "no L-system '" + *label + "'", "one of the file's labels");
+  LSystem system;
+  system.program_ = std::move(program);
   return system;
 }
 

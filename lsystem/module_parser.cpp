@@ -1,7 +1,10 @@
 #include "lsystem/module_parser.h"
 
+#include "lsystem/lineage.h"
+
 #include <algorithm>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 namespace cambium {
@@ -14,6 +17,14 @@ bool symbol_at(const Cursor& cursor) {
   const char c = cursor.peek();
   if (c == '\0' || cursor.looking_at("-->")) return false;
   return in_word(c) || c == '@' || c == '~' || kSymbolMarks.find(c) != std::string_view::npos;
+}
+
+// `: {`, `: *` and `:` alone begin a production's condition; a weight looks otherwise.
+bool begins_condition(std::string_view line) {
+  const std::size_t colon = line.find(':');
+  if (colon == std::string_view::npos) return false;
+  const std::size_t next = line.find_first_not_of(" \t", colon + 1);
+  return next == std::string_view::npos || line[next] == '{' || line[next] == '*';
 }
 
 }  // namespace
@@ -55,28 +66,43 @@ std::uint16_t ModuleParser::number(const std::string& name, std::size_t at) {
   return number;
 }
 
-// At a line end: whether the next line that is not blank goes on with the successor. It does if it is indented, or inside brackets, and
-// nothing in it makes it a production or a keyword of its own. Leaves the cursor there if so.
+// At a line end: whether the next line that is not blank goes on with the successor. It does if it is indented (cpfg asks for a
+// tab), or inside brackets, and nothing in it makes it a production or a keyword of its own. Leaves the cursor there if so.
 bool ModuleParser::line_continues(bool inside_brackets) {
   const std::string& text = cursor_.source().text;
   const std::size_t before = cursor_.position();
   cursor_.skip_blank_lines();
   const std::size_t first = cursor_.position();
   const bool indented = first > 0 && (text[first - 1] == ' ' || text[first - 1] == '\t');
-  std::size_t end = text.find('\n', first);
-  if (end == std::string::npos) end = text.size();
+  const std::size_t end = std::min(text.find('\n', first), text.size());
   const std::string_view line(text.data() + first, end - first);
   const std::string word = cursor_.word();
-  std::size_t next = end;
-  while (next < text.size() && (text[next] == '\n' || text[next] == ' ' || text[next] == '\t')) ++next;
-  const bool goes_on = (indented || inside_brackets) && first < text.size() && !is_keyword(word) && line.find("-->") == std::string_view::npos &&
-                       line.find(':') == std::string_view::npos && text.compare(next, 3, "-->") != 0;
+  const std::size_t next = std::min(text.find_first_not_of(" \t\n", end), text.size());
+  const bool goes_on = (indented || inside_brackets) && first < text.size() && !is_keyword(word) &&
+                       line.find("-->") == std::string_view::npos && text.compare(next, 3, "-->") != 0 && !begins_condition(line);
   cursor_.seek(goes_on ? first : before);
   return goes_on;
 }
 
+// The '(' to ')' behind a symbol, if there is one.
+std::uint16_t ModuleParser::module_arity(ExpressionCompiler& compiler) {
+  cursor_.skip_space();
+  if (cursor_.peek() != '(') return 0;
+  const std::size_t open = cursor_.position();
+  cursor_.advance();
+  const Cursor::LineEnds inside(cursor_, true);
+  std::size_t arity = 0;
+  do {
+    compiler.expression();
+    if (++arity > kMaxParameters) cursor_.fail("fewer than 1000 parameters");
+  } while (cursor_.accept(','));
+  cursor_.expect_close(open, "or ','");
+  return static_cast<std::uint16_t>(arity);
+}
+
 void ModuleParser::modules(Successor& out, Scope& scope) {
   std::vector<std::size_t> open;
+  std::unordered_map<std::string, std::uint64_t> occurrences;
   ExpressionCompiler compiler(cursor_, scope, out.parameters);
   while (true) {
     cursor_.skip_space();
@@ -94,20 +120,9 @@ void ModuleParser::modules(Successor& out, Scope& scope) {
       open.pop_back();
     }
     out.symbols.push_back(number(*name, at));
-    cursor_.skip_space();
-    std::size_t arity = 0;
-    if (cursor_.peek() == '(') {
-      const std::size_t open_parameters = cursor_.position();
-      cursor_.advance();
-      const Cursor::LineEnds inside(cursor_, true);
-      do {
-        compiler.expression();
-        if (++arity > kMaxParameters) cursor_.fail("fewer than 1000 parameters");
-      } while (cursor_.accept(','));
-      cursor_.expect_close(open_parameters, "or ','");
-    }
-    out.arities.push_back(static_cast<std::uint16_t>(arity));
-    out.parameter_count += arity;
+    out.slots.push_back(slot_of(*name, occurrences[*name]++));
+    out.arities.push_back(module_arity(compiler));
+    out.parameter_count += out.arities.back();
   }
   if (!open.empty()) cursor_.fail_at(open.back(), "'[' without an end", "']' in the same successor");
 }
@@ -129,9 +144,12 @@ Successor ModuleParser::successor(Scope& scope) {
 struct ModuleParser::FormalModule {
   std::string name;
   std::size_t at = 0;
-  std::uint16_t number = 0;
-  std::uint16_t arity = 0;
-  std::uint32_t first_local = 0;
+  ContextModule module;
+};
+
+struct ModuleParser::Predecessors {
+  std::vector<FormalModule> left, strict, right;
+  bool left_seen = false, right_seen = false;
 };
 
 ModuleParser::FormalModule ModuleParser::formal(Scope& scope) {
@@ -140,8 +158,7 @@ ModuleParser::FormalModule ModuleParser::formal(Scope& scope) {
   const auto name = symbol();
   if (!name) cursor_.fail("a module or '-->'");
   out.name = *name;
-  out.number = number(*name, out.at);
-  out.first_local = static_cast<std::uint32_t>(scope.locals.size());
+  out.module = {number(*name, out.at), 0, static_cast<std::uint32_t>(scope.locals.size())};
   cursor_.skip_space();
   if (cursor_.peek() != '(') return out;
   cursor_.advance();
@@ -152,14 +169,110 @@ ModuleParser::FormalModule ModuleParser::formal(Scope& scope) {
     if (parameter.empty()) cursor_.fail("the name of a parameter");
     if (!scope.locals.emplace(parameter, static_cast<std::uint32_t>(scope.locals.size())).second)
       cursor_.fail_at(at, "parameter '" + parameter + "' twice", "different names");
-    if (++out.arity > kMaxParameters) cursor_.fail("fewer than 1000 parameters");
+    if (++out.module.arity > kMaxParameters) cursor_.fail("fewer than 1000 parameters");
   } while (cursor_.accept(','));
   cursor_.expect(')', "or ','");
   return out;
 }
 
-ContextModule ModuleParser::context_module(const FormalModule& from) const {
-  return {from.number, from.arity, from.first_local};
+// At a line end: the next line goes on with this production only by a mark that cannot begin one.
+void ModuleParser::go_to_arrow_line() {
+  const std::size_t line_end = cursor_.position();
+  cursor_.skip_blank_lines();
+  const char next = cursor_.peek();
+  if (!at_arrow() && next != ':' && next != '<' && next != '>')
+    cursor_.fail_at(line_end, cursor_.describe(line_end), "'-->'");
+}
+
+// At a '<': what stood before it is the left context.
+void ModuleParser::left_part(Predecessors& parts) {
+  if (parts.left_seen || parts.right_seen) cursor_.fail("'>', ':' or '-->'");
+  if (parts.strict.empty()) cursor_.fail("a left context before it");
+  parts.left_seen = true;
+  parts.left = std::move(parts.strict);
+  parts.strict.clear();
+  cursor_.advance();
+}
+
+// At a '>': what follows it is the right context.
+void ModuleParser::right_part(Predecessors& parts) {
+  if (parts.right_seen) cursor_.fail("':' or '-->'");
+  if (parts.strict.empty()) cursor_.fail("a predecessor before it");
+  parts.right_seen = true;
+  cursor_.advance();
+  cursor_.skip_space();
+  if (at_arrow() || cursor_.peek() == ':') cursor_.fail("a right context");
+}
+
+// `left < strict > right`, up to the ':' or the arrow. `*` in place of a context is none.
+ModuleParser::Predecessors ModuleParser::predecessors(Scope& scope) {
+  Predecessors parts;
+  const auto nothing = [&] {
+    cursor_.skip_space();
+    if (cursor_.peek() != '*') return false;
+    cursor_.advance();
+    return true;
+  };
+  if (nothing()) {
+    cursor_.skip_space();
+    if (cursor_.peek() != '<') cursor_.fail("'<' after '*'");
+    parts.left_seen = true;
+    cursor_.advance();
+  }
+  while (true) {
+    cursor_.skip_space();
+    if (cursor_.at_line_end()) go_to_arrow_line();
+    if (at_arrow() || cursor_.peek() == ':') break;
+    if (cursor_.peek() == '<') {
+      left_part(parts);
+    } else if (cursor_.peek() == '>') {
+      right_part(parts);
+      if (nothing()) continue;
+    } else {
+      (parts.right_seen ? parts.right : parts.strict).push_back(formal(scope));
+    }
+  }
+  if (parts.strict.empty()) cursor_.fail("a predecessor");
+  check(parts);
+  return parts;
+}
+
+void ModuleParser::check(const Predecessors& parts) const {
+  const auto bracket = [](const FormalModule& module) { return module.name == "[" || module.name == "]"; };
+  for (const FormalModule& module : parts.strict)
+    if (bracket(module)) cursor_.fail_at(module.at, "'" + module.name + "'", "a predecessor that is no bracket");
+  for (const FormalModule& module : parts.left)
+    if (bracket(module)) cursor_.fail_at(module.at, "'" + module.name + "' in a left context", "modules on the path to the root");
+  int depth = 0;
+  for (const FormalModule& module : parts.right) {
+    depth += module.name == "[" ? 1 : module.name == "]" ? -1 : 0;
+    if (depth < 0) cursor_.fail_at(module.at, "']'", "a '[' before it");
+  }
+  if (depth > 0) cursor_.fail_at(parts.right.front().at, "a right context without ']'", "']' for each '['");
+}
+
+// Behind the ':': `{statements} condition {statements}`, each of which may be missing, but not all.
+void ModuleParser::condition(Production& out, Scope& scope) {
+  cursor_.skip_space();
+  if (cursor_.peek() == '{') ExpressionCompiler(cursor_, scope, out.before).block();
+  cursor_.skip_space();
+  const char next = cursor_.peek();
+  if (next == '*')
+    cursor_.advance();
+  else if (!at_arrow() && next != '{')
+    ExpressionCompiler(cursor_, scope, out.condition).expression();
+  else if (out.before.empty() && next != '{')
+    cursor_.fail("a condition");
+  cursor_.skip_space();
+  if (cursor_.peek() == '{') ExpressionCompiler(cursor_, scope, out.after).block();
+  cursor_.skip_space();
+}
+
+void ModuleParser::weight(Production& out, Scope& scope) {
+  if (!cursor_.accept(':')) return;
+  cursor_.skip_space();
+  out.weight_place = cursor_.place();
+  ExpressionCompiler(cursor_, scope, out.weight).expression();
 }
 
 Production ModuleParser::production() {
@@ -168,88 +281,18 @@ Production ModuleParser::production() {
   scope.assigns_globals = false;
   out.place = cursor_.place();
   const std::size_t begin = cursor_.position();
-  std::vector<FormalModule> parts[3];  // left, predecessor, right
-  int part = 1;
-  bool left_seen = false;
+  const Predecessors parts = predecessors(scope);
+  for (const FormalModule& module : parts.strict) out.predecessor.push_back(module.module);
+  for (auto left = parts.left.rbegin(); left != parts.left.rend(); ++left) out.left.push_back(left->module);
+  for (const FormalModule& module : parts.right) out.right.push_back(module.module);
   {
-    const auto check_single = [&] {
-      if (parts[1].size() > 1)
-        cursor_.fail_at(parts[1][1].at, "'" + parts[1][1].name + "'", "one predecessor, then '<', '>', ':' or '-->'");
-    };
-    while (true) {
-      cursor_.skip_space();
-      if (cursor_.at_line_end()) {
-        // The next line goes on with this production only by a mark that cannot begin one.
-        const std::size_t line_end = cursor_.position();
-        cursor_.skip_blank_lines();
-        const char next = cursor_.peek();
-        if (!cursor_.looking_at("-->") && next != ':' && next != '<' && next != '>') {
-          check_single();
-          cursor_.fail_at(line_end, cursor_.describe(line_end), "'-->'");
-        }
-      }
-      if (cursor_.looking_at("-->") || cursor_.peek() == ':') break;
-      if (cursor_.peek() == '<') {
-        if (left_seen || part == 2) cursor_.fail("'>', ':' or '-->'");
-        left_seen = true;
-        if (parts[1].empty()) cursor_.fail("a left context before it");
-        parts[0] = std::move(parts[1]);
-        parts[1].clear();
-        cursor_.advance();
-      } else if (cursor_.peek() == '>') {
-        if (part == 2) cursor_.fail("':' or '-->'");
-        part = 2;
-        cursor_.advance();
-      } else {
-        parts[part].push_back(formal(scope));
-      }
-    }
-    if (parts[1].empty()) cursor_.fail("a predecessor");
-    check_single();
     const Cursor::LineEnds inside(cursor_, true);
-    if (part == 2 && parts[2].empty()) cursor_.fail("a right context");
-    const FormalModule& predecessor = parts[1][0];
-    if (predecessor.name == "[" || predecessor.name == "]")
-      cursor_.fail_at(predecessor.at, "'" + predecessor.name + "'", "a predecessor that is no bracket");
-    out.predecessor = context_module(predecessor);
-    for (auto left = parts[0].rbegin(); left != parts[0].rend(); ++left) {
-      if (left->name == "[" || left->name == "]")
-        cursor_.fail_at(left->at, "'" + left->name + "' in a left context", "modules on the path to the root");
-      out.left.push_back(context_module(*left));
-    }
-    int depth = 0;
-    for (const FormalModule& right : parts[2]) {
-      depth += right.name == "[" ? 1 : right.name == "]" ? -1 : 0;
-      if (depth < 0) cursor_.fail_at(right.at, "']'", "a '[' before it");
-      out.right.push_back(context_module(right));
-    }
-    if (depth > 0) cursor_.fail_at(parts[2].front().at, "a right context without ']'", "']' for each '['");
-
-    if (cursor_.accept(':')) {
-      cursor_.skip_space();
-      if (cursor_.peek() == '{') ExpressionCompiler(cursor_, scope, out.before).block();
-      cursor_.skip_space();
-      const char next = cursor_.peek();
-      if (next == '*') {
-        cursor_.advance();
-      } else if (!cursor_.looking_at("-->") && next != '{') {
-        ExpressionCompiler(cursor_, scope, out.condition).expression();
-      } else if (out.before.empty() && next != '{') {
-        cursor_.fail("a condition");
-      }
-      cursor_.skip_space();
-      if (cursor_.peek() == '{') ExpressionCompiler(cursor_, scope, out.after).block();
-      cursor_.skip_space();
-    }
-    if (!cursor_.looking_at("-->")) cursor_.fail("'-->'");
+    if (cursor_.accept(':')) condition(out, scope);
+    if (!at_arrow()) cursor_.fail("'-->'");
     cursor_.advance(3);
   }
   out.successor = successor(scope);
-  if (cursor_.accept(':')) {
-    cursor_.skip_space();
-    out.weight_place = cursor_.place();
-    ExpressionCompiler(cursor_, scope, out.weight).expression();
-  }
+  weight(out, scope);
   cursor_.skip_space();
   if (!cursor_.at_line_end()) cursor_.fail("a module, ':' or the end of the line");
   out.local_count = static_cast<std::uint32_t>(scope.locals.size());

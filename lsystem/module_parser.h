@@ -24,11 +24,21 @@ class ModuleParser {
   Production production();
 
  private:
+  struct FormalModule;
+  struct Predecessors;
+
   bool line_continues(bool inside_brackets);
   void modules(Successor& out, Scope& scope);
-  struct FormalModule;
+  std::uint16_t module_arity(ExpressionCompiler& compiler);
   FormalModule formal(Scope& scope);
-  ContextModule context_module(const FormalModule& from) const;
+  Predecessors predecessors(Scope& scope);
+  bool at_arrow() const { return cursor_.looking_at("-->"); }
+  void left_part(Predecessors& parts);
+  void right_part(Predecessors& parts);
+  void go_to_arrow_line();
+  void check(const Predecessors& parts) const;
+  void condition(Production& out, Scope& scope);
+  void weight(Production& out, Scope& scope);
   std::uint16_t number(const std::string& name, std::size_t at);
 
   Cursor& cursor_;

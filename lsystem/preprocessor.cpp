@@ -229,9 +229,9 @@ class Preprocessor {
     ExpressionCompiler(cursor, scope, code).expression();
     cursor.skip_space();
     if (!cursor.at_end()) cursor.fail("the end of the condition");
-    CounterRandom random(0);
-    const std::vector<ArrayInfo> no_arrays;
-    return Machine(files_, no_arrays, random).value(code, nullptr) != 0.0;
+    CodeTables tables;
+    tables.files = files_;
+    return constant_value(code, tables) != 0.0;
   }
 
   std::vector<std::string> files_;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -21,28 +22,30 @@ struct ContextModule {
 struct Successor {
   std::vector<std::uint16_t> symbols;
   std::vector<std::uint16_t> arities;
-  Code parameters;              ///< leaves all modules' parameters, in order
+  std::vector<std::uint64_t> slots;   ///< see lineage.h
+  Code parameters;                    ///< leaves all modules' parameters, in order
   std::size_t parameter_count = 0;
 };
 
 /// left < predecessor > right : {before} condition {after} --> successor : weight
 struct Production {
-  std::vector<ContextModule> left;   ///< nearest to the predecessor first
+  std::vector<ContextModule> left;          ///< nearest to the predecessor first
   std::vector<ContextModule> right;
-  ContextModule predecessor;
-  Code before, condition, after, weight;  ///< empty: none
+  std::vector<ContextModule> predecessor;   ///< one or more modules in a row, all of which the successor replaces
+  Code before, condition, after, weight;    ///< empty: none
   Successor successor;
   std::uint32_t local_count = 0;
-  std::uint32_t group = 0;           ///< productions of one predecessor and contexts, among which weights draw
+  std::uint32_t group = 0;                  ///< productions of one strict predecessor, among which weights draw
   Place place, weight_place;
 };
 
-/// Productions and, for each symbol, those that rewrite it, in the file's order.
+/// Productions and, for each symbol, those whose predecessor begins with it, in the file's order.
 struct RuleSet {
   std::vector<Production> productions;
   std::vector<std::vector<std::uint32_t>> of_symbol;
   int max_depth = 1;            ///< of decomposition and homomorphism
   bool has_context = false;
+  bool in_order = false;        ///< modules have to be rewritten from left to right: see RewritingPass
   bool empty() const { return productions.empty(); }
 };
 
@@ -63,21 +66,35 @@ class SymbolTable {
   std::vector<std::string> names_;
 };
 
-struct LSystemProgram {
+/// One `lsystem: label` ... `endlsystem`.
+struct System {
   std::string label;
-  std::vector<std::string> files;
-  SymbolTable symbols;
-  std::uint16_t open = 0, close = 0, cut = 0;   ///< `[`, `]`, `%`
   std::uint64_t seed = 0;
+  std::optional<std::uint64_t> homomorphism_seed;
   int derivation_length = -1;                   ///< -1: the file does not say
+  bool ring = false;
   std::vector<bool> ignored;                    ///< by symbol, as context sees it
-  std::vector<ArrayInfo> arrays;
-  std::vector<double> initial_globals;
   Code start, start_each, end_each, end;
-  std::uint32_t block_locals = 0;               ///< most locals of any of the blocks above
   Successor axiom;
   RuleSet productions, decomposition, homomorphism;
   Place place;                                  ///< of `lsystem:`
+};
+
+/// All L-systems of a file. They share symbols, and the others are what the main one calls by `?(label)` ... `$`.
+struct LSystemProgram {
+  CodeTables tables;
+  SymbolTable symbols;
+  std::uint16_t open = 0, close = 0, cut = 0;   ///< `[`, `]`, `%`
+  std::uint16_t call = 0, end_call = 0;         ///< `?`, `$`
+  std::uint16_t rest = 0;                       ///< `=`: in a right context, all up to the end of the branch
+  std::vector<double> initial_globals;          ///< of all systems
+  std::uint32_t block_locals = 0;               ///< most locals of any block
+  std::vector<System> systems;
+  std::size_t main_index = 0;
+
+  const System& main() const { return systems[main_index]; }
+  /// The one whose label is this whole number; nullptr if there is none.
+  const System* numbered(double label) const;
 };
 
 }  // namespace cambium

@@ -26,10 +26,12 @@ class Bytecode : public testing::Test {
     return 0;
   }
 
-  std::vector<std::string> files{"test.l"};
-  std::vector<ArrayInfo> arrays{{"a", 0, {2, 3}}};
+  CodeTables tables{{"test.l"}, {{"a", 0, {2, 3}}}, {}};
   CounterRandom random{1};
-  Machine machine{files, arrays, random};
+  std::vector<double> globals;
+  std::string printed;
+  Printer printer = [this](std::string_view text) { printed += text; };
+  Machine machine{tables, random, globals, &printer};
   double locals[4] = {10, 20, 30, 40};
 };
 
@@ -42,20 +44,36 @@ TEST_F(Bytecode, LeavesItsValuesBottomFirst) {
 }
 
 TEST_F(Bytecode, ElementsAreCheckedAgainstTheArraysSizes) {
-  machine.globals = {0, 1, 2, 3, 4, 5};
+  globals = {0, 1, 2, 3, 4, 5};
   const std::vector<Instruction> load = {{Op::kConstant, 0}, {Op::kConstant, 1}, {Op::kElement, 0}};
   EXPECT_EQ(machine.value(code_of(load, {1, 2}, 2), locals), 5);
   EXPECT_EQ(column_of_error(code_of(load, {1, 3}, 2)), 3);
   EXPECT_EQ(column_of_error(code_of(load, {-1, 0}, 2)), 3);
   const std::vector<Instruction> store = {{Op::kConstant, 0}, {Op::kConstant, 1}, {Op::kLocal, 3}, {Op::kStoreElement, 0}};
   machine.run(code_of(store, {0, 1}, 3), locals);
-  EXPECT_EQ(machine.globals[1], 40);
+  EXPECT_EQ(globals[1], 40);
 }
 
 TEST_F(Bytecode, ErrorsNameTheInstruction) {
   EXPECT_EQ(column_of_error(code_of({{Op::kConstant, 0}, {Op::kConstant, 0}, {Op::kDivide}}, {0}, 2)), 3);
   EXPECT_EQ(column_of_error(code_of({{Op::kConstant, 0}, {Op::kConstant, 0}, {Op::kMultiply}}, {1e200}, 2)), 3);
   EXPECT_NE(column_of_error(code_of({{Op::kJump, 0}}, {}, 0)), 0);  // never ends
+}
+
+TEST_F(Bytecode, PrintingTakesItsValuesAndLeavesZero) {
+  Code code = code_of({{Op::kLocal, 0}, {Op::kLocal, 1}, {Op::kPrint, 0}}, {}, 2);
+  code.prints = {{"%g of %g\\n", 2}};
+  EXPECT_EQ(machine.value(code, locals), 0);
+  EXPECT_EQ(printed, "10 of 20\n");
+}
+
+TEST_F(Bytecode, CurvesAreCountedFromOne) {
+  tables.curves.emplace_back("up", std::vector<CurvePoint>{{0, 0}, {1.0 / 3, 1}, {2.0 / 3, 2}, {1, 3}}, 0);
+  const Code code = code_of({{Op::kLocal, 0}, {Op::kConstant, 0}, {Op::kCall, static_cast<std::uint32_t>(Function::kFunc) | 2u << 8}}, {0.5}, 2);
+  locals[0] = 1;
+  EXPECT_NEAR(machine.value(code, locals), 1.5, 1e-12);
+  locals[0] = 2;
+  EXPECT_EQ(column_of_error(code), 3);
 }
 
 TEST_F(Bytecode, FunctionsAreFoundByName) {

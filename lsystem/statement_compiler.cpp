@@ -1,0 +1,129 @@
+// The statements of blocks.
+#include "lsystem/expression_compiler.h"
+
+namespace cambium {
+
+void ExpressionCompiler::block() {
+  const Nesting nesting(*this);
+  const Cursor::LineEnds inside(cursor_, true);
+  cursor_.skip_space();
+  const std::size_t begin = cursor_.position();
+  cursor_.expect('{', "before statements");
+  while (!cursor_.accept('}')) {
+    if (cursor_.at_end()) cursor_.fail_at(begin, "'{' without an end", "'}'");
+    statement();
+  }
+}
+
+void ExpressionCompiler::statement() {
+  const Nesting nesting(*this);
+  cursor_.skip_space();
+  const std::size_t begin = cursor_.position();
+  if (cursor_.peek() == '{') return block();
+  if (cursor_.accept(';')) return;
+  const std::string keyword = cursor_.word();
+  if (keyword == "if") return if_statement(begin);
+  if (keyword == "while") return while_statement(begin);
+  if (keyword == "do") return do_statement(begin);
+  if (keyword == "for") return for_statement(begin);
+  cursor_.skip_space();
+  if (!keyword.empty() && cursor_.peek() == '(') {
+    call(keyword, begin);
+    emit(Op::kDrop, 0, -1, begin);
+  } else {
+    cursor_.seek(begin);
+    assignment();
+  }
+  cursor_.expect(';', "after the statement");
+}
+
+void ExpressionCompiler::if_statement(std::size_t begin) {
+  cursor_.expect('(', "after 'if'");
+  expression();
+  cursor_.expect(')', "after the condition");
+  const std::size_t otherwise = emit(Op::kJumpIfZero, 0, -1, begin);
+  statement();
+  cursor_.skip_space();
+  const std::size_t after = cursor_.position();
+  if (cursor_.word() != "else") {
+    cursor_.seek(after);
+    return patch(otherwise);
+  }
+  const std::size_t end = emit(Op::kJump, 0, 0, after);
+  patch(otherwise);
+  statement();
+  patch(end);
+}
+
+void ExpressionCompiler::while_statement(std::size_t begin) {
+  cursor_.expect('(', "after 'while'");
+  const std::uint32_t top = here();
+  expression();
+  cursor_.expect(')', "after the condition");
+  const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
+  statement();
+  emit(Op::kJump, top, 0, begin);
+  patch(end);
+}
+
+void ExpressionCompiler::do_statement(std::size_t begin) {
+  const std::uint32_t top = here();
+  statement();
+  cursor_.skip_space();
+  const std::size_t at = cursor_.position();
+  if (cursor_.word() != "while") cursor_.fail_at(at, cursor_.describe(at), "'while' after the body of 'do'");
+  cursor_.expect('(', "after 'while'");
+  expression();
+  cursor_.expect(')', "after the condition");
+  cursor_.expect(';', "after 'do'");
+  const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
+  emit(Op::kJump, top, 0, begin);
+  patch(end);
+}
+
+void ExpressionCompiler::for_statement(std::size_t begin) {
+  cursor_.expect('(', "after 'for'");
+  assignment();
+  cursor_.expect(';', "after the first part of 'for'");
+  const std::uint32_t top = here();
+  expression();
+  cursor_.expect(';', "after the condition");
+  const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
+  const std::size_t body = emit(Op::kJump, 0, 0, begin);
+  const std::uint32_t step = here();
+  assignment();
+  cursor_.expect(')', "after the step of 'for'");
+  emit(Op::kJump, top, 0, begin);
+  patch(body);
+  statement();
+  emit(Op::kJump, step, 0, begin);
+  patch(end);
+}
+
+void ExpressionCompiler::assignment() {
+  cursor_.skip_space();
+  const std::size_t begin = cursor_.position();
+  const std::string name = cursor_.word();
+  if (name.empty()) cursor_.fail("a statement");
+  const std::uint32_t* array = scope_.locals.count(name) ? nullptr : array_named(name);
+  if (array) indices(*array);
+  cursor_.skip_space();
+  const std::size_t at = cursor_.position();
+  Op combined = Op::kConstant;
+  const char c = cursor_.peek();
+  if (!array && cursor_.peek(1) == '=' && (c == '+' || c == '-' || c == '*' || c == '/')) {
+    combined = c == '+' ? Op::kAdd : c == '-' ? Op::kSubtract : c == '*' ? Op::kMultiply : Op::kDivide;
+    load(name, begin);
+    cursor_.advance(2);
+  } else {
+    cursor_.expect('=', "of an assignment");
+    if (cursor_.peek() == '=') cursor_.fail("an expression");
+  }
+  expression();
+  if (combined != Op::kConstant) emit(combined, 0, -1, at);
+  if (!array) return store(name, begin);
+  code_.has_effects = true;
+  emit(Op::kStoreElement, *array, -1 - static_cast<int>(dimensions(*array)), begin);
+}
+
+}  // namespace cambium

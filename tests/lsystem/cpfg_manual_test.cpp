@@ -1,0 +1,2 @@
+#include "grammar.h"
+#include <gtest/gtest.h>
