@@ -176,6 +176,10 @@ void ExpressionCompiler::primary() {
     return;
   }
   if (is_digit(cursor_.peek()) || (cursor_.peek() == '.' && is_digit(cursor_.peek(1)))) return emit_constant(read_number(cursor_), at);
+  if (cursor_.peek() == '"') {   // of a label, which only is drawn: `@L("%g",x)`
+    quoted_text();
+    return emit_constant(0, at);
+  }
   const std::string name = cursor_.word();
   if (name.empty()) cursor_.fail("an expression");
   cursor_.skip_space();

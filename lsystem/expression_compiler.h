@@ -55,6 +55,7 @@ class ExpressionCompiler {
   void while_statement(std::size_t begin);
   void do_statement(std::size_t begin);
   void for_statement(std::size_t begin);
+  bool is_assignment();
   void assignment();
 
   const std::uint32_t* array_named(const std::string& name) const;

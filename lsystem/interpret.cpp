@@ -24,7 +24,7 @@ constexpr int kTurnsBetweenRepairs = 64;
 
 enum class Action {
   kSkip, kSilent, kDraw, kMove, kYawLeft, kYawRight, kPitchDown, kPitchUp, kRollLeft, kRollRight, kTurnBack, kLevel,
-  kOpen, kClose, kPolygonOpen, kPolygonClose, kThinner, kThicker, kCut, kPlace, kOrient, kElasticity, kTropism
+  kOpen, kClose, kPolygonOpen, kPolygonClose, kThinner, kThicker, kCut, kPlace, kOrient, kElasticity, kTropism, kCall
 };
 
 Action action_of(std::string_view name) {
@@ -35,7 +35,7 @@ Action action_of(std::string_view name) {
       {"@v", Action::kLevel},     {"[", Action::kOpen},         {"]", Action::kClose},         {"{", Action::kPolygonOpen},
       {"}", Action::kPolygonClose}, {".", Action::kSilent},     {"!", Action::kThinner},       {"#", Action::kThicker},
       {"%", Action::kCut},        {"@M", Action::kPlace},       {"@R", Action::kOrient},       {"@Ts", Action::kElasticity},
-      {"@T", Action::kElasticity}, {"@Td", Action::kTropism}};
+      {"@T", Action::kElasticity}, {"@Td", Action::kTropism},   {"?", Action::kCall}};
   const auto found = kActions.find(name);
   return found == kActions.end() ? Action::kSkip : found->second;
 }
@@ -81,6 +81,7 @@ class Interpreter {
   std::size_t count() const { return string_.first[index_ + 1] - string_.first[index_]; }
   double parameter(std::size_t i) const { return string_.parameters[string_.first[index_] + i]; }
   double parameter_or(double fallback) const { return count() > 0 ? parameter(0) : fallback; }
+  double length() const { return parameter_or(options_.step) * scale_; }
   double angle() const { return count() > 0 ? parameter(0) * kRadian : angle_; }
   void skip() { ++skipped_[string_.symbol[index_]]; }
 
@@ -94,7 +95,7 @@ class Interpreter {
       case Action::kSkip: return skip();
       case Action::kSilent: return;
       case Action::kDraw: return draw();
-      case Action::kMove: return move(parameter_or(options_.step));
+      case Action::kMove: return move(length());
       case Action::kYawLeft: return turn(&TurtleFrame::yaw, angle());
       case Action::kYawRight: return turn(&TurtleFrame::yaw, -angle());
       case Action::kPitchDown: return turn(&TurtleFrame::pitch, angle());
@@ -102,7 +103,8 @@ class Interpreter {
       case Action::kRollRight: return turn(&TurtleFrame::roll, angle());
       case Action::kRollLeft: return turn(&TurtleFrame::roll, -angle());
       case Action::kTurnBack: return state_.frame.turn_back();
-      case Action::kLevel: return state_.frame.level();
+      case Action::kLevel: return level_or_return();
+      case Action::kCall: return call();
       case Action::kOpen:
         stack_.emplace_back(state_, polygon_);
         state_.lateral = true;
@@ -142,6 +144,19 @@ class Interpreter {
     if (++state_.turns < kTurnsBetweenRepairs) return;
     state_.turns = 0;
     state_.frame.restore_orthonormality();
+  }
+
+  // `?(label)` and `?(label,scale)` up to their `$` are a sub-L-system's, whose lengths are scaled.
+  void call() {
+    if (count() == 0) return skip();
+    callers_.push_back(scale_);
+    if (count() > 1) scale_ *= parameter(1);
+  }
+
+  void level_or_return() {
+    if (callers_.empty() || string_.names[string_.symbol[index_]] != "$") return state_.frame.level();
+    scale_ = callers_.back();
+    callers_.pop_back();
   }
 
   void set_width(double width) {
@@ -199,7 +214,7 @@ class Interpreter {
   }
 
   void draw() {
-    const double length = parameter_or(options_.step);
+    const double length = this->length();
     if (polygon_ > 0) return move(length);
     if (length == 0) {
       ++out_.skipped["F(0)"];
@@ -240,6 +255,8 @@ class Interpreter {
   std::size_t index_ = 0;
   State state_;
   int polygon_ = 0;                    // how deep in { }
+  double scale_ = 1;                   // of lengths, by the sub-L-systems around
+  std::vector<double> callers_;        // their callers' scales
   std::vector<std::pair<State, int>> stack_;
   // Node at each place where a piece can begin, -1 before one does: branches that all begin at the axiom's start, say, share it.
   std::vector<std::int32_t> starts_{-1};

@@ -237,18 +237,13 @@ ModuleParser::Predecessors ModuleParser::predecessors(Scope& scope) {
   return parts;
 }
 
+// A right context may hold brackets, balanced or not: it can lead into a branch, or out of the one that the predecessor is in.
 void ModuleParser::check(const Predecessors& parts) const {
   const auto bracket = [](const FormalModule& module) { return module.name == "[" || module.name == "]"; };
   for (const FormalModule& module : parts.strict)
     if (bracket(module)) cursor_.fail_at(module.at, "'" + module.name + "'", "a predecessor that is no bracket");
   for (const FormalModule& module : parts.left)
     if (bracket(module)) cursor_.fail_at(module.at, "'" + module.name + "' in a left context", "modules on the path to the root");
-  int depth = 0;
-  for (const FormalModule& module : parts.right) {
-    depth += module.name == "[" ? 1 : module.name == "]" ? -1 : 0;
-    if (depth < 0) cursor_.fail_at(module.at, "']'", "a '[' before it");
-  }
-  if (depth > 0) cursor_.fail_at(parts.right.front().at, "a right context without ']'", "']' for each '['");
 }
 
 // Behind the ':': `{statements} condition {statements}`, each of which may be missing, but not all.

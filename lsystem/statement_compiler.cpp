@@ -26,15 +26,27 @@ void ExpressionCompiler::statement() {
   if (keyword == "while") return while_statement(begin);
   if (keyword == "do") return do_statement(begin);
   if (keyword == "for") return for_statement(begin);
-  cursor_.skip_space();
-  if (!keyword.empty() && cursor_.peek() == '(') {
-    call(keyword, begin);
-    emit(Op::kDrop, 0, -1, begin);
-  } else {
-    cursor_.seek(begin);
+  cursor_.seek(begin);
+  if (is_assignment()) {
     assignment();
+  } else {
+    expression();
+    emit(Op::kDrop, 0, -1, begin);
   }
   cursor_.expect(';', "after the statement");
+}
+
+// A statement may be an expression whose value nobody wants: a call, say.
+bool ExpressionCompiler::is_assignment() {
+  const std::size_t begin = cursor_.position();
+  cursor_.word();
+  cursor_.skip_space();
+  const char c = cursor_.peek();
+  const bool compares = cursor_.peek(1) == '=' && (c == '=' || c == '!' || c == '<' || c == '>');
+  const bool combines = cursor_.peek(1) == '=' && !compares;
+  const bool expression = c == '(' || c == ';' || compares || (std::string_view("+-*/%^<>?!&|").find(c) != std::string_view::npos && !combines);
+  cursor_.seek(begin);
+  return c == '\0' || !expression;
 }
 
 void ExpressionCompiler::if_statement(std::size_t begin) {

@@ -118,6 +118,13 @@ TEST(Interpret, SymbolsWithoutMeaningAreSkippedAndCounted) {
   EXPECT_EQ(result.skeleton.nodes.size(), 3u);
 }
 
+TEST(Interpret, ASubLSystemsLengthsAreScaled) {
+  const Turtled result = turtled("F?(2,0.5)F?(3,3)F$F$F+(90)$F");
+  EXPECT_EQ(result.total_length, 1 + 0.5 + 1.5 + 0.5 + 1 + 1);
+  EXPECT_TRUE(result.skipped.empty());
+  expect_tip("+(40)/(30)?(2)F$|F", {0, 0, 0});   // a `$` that ends one levels nothing
+}
+
 TEST(Interpret, TropismBendsAfterEachSegment) {
   TurtleOptions options;
   options.elasticity = 0.1;

@@ -146,7 +146,6 @@ TEST(LSystemParser, MalformedInputNamesItsLineAndColumn) {
       {"A(s) > --> F(s)", 3, 8, "'-->'"},
       {"[ --> F", 3, 1, "'['"},
       {"B] < A(s) --> F", 3, 2, "']'"},
-      {"A(s) > [B --> F", 3, 8, "right context"},
       {"A(s) --> ~", 3, 10, "'~'"},
       // Errors of derivation name the expression.
       {"A(s) --> F(s/(s-1))", 3, 13, "a division by zero"},
