@@ -10,8 +10,6 @@
 namespace cambium {
 namespace {
 
-// Rays that leave a surface start this far off it: far above the root's 1e-6, far below what an eye sees.
-constexpr double kOffsetRadii = 3e-4;
 // A pixel is drawn out over bark that is seen at a grazing angle, but not without end.
 constexpr double kLeastFacing = 0.06;
 constexpr double kFullHaze = 0.995;
@@ -80,8 +78,7 @@ PathTracer::Vertex PathTracer::bark_vertex(Walk& walk, const Ray& ray, const Sur
   }
   // On the very rim, rounding may show the surface from behind.
   if (glm::dot(normal, ray.direction) > 0) normal = glm::normalize(normal - glm::dot(normal, ray.direction) * ray.direction);
-  const double radius = field.smallest_radius() < kInfinity ? field.smallest_radius() : glm::length(field.box().size());
-  return {p + kOffsetRadii * radius * normal, Bsdf({normal, fine ? look.normal : normal, look.albedo, look.roughness}, -ray.direction),
+  return {off_surface(ray, hit), Bsdf({normal, fine ? look.normal : normal, look.albedo, look.roughness}, -ray.direction),
           options_.relief ? open_share(look) : 1};
 }
 

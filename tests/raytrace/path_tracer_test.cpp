@@ -127,6 +127,33 @@ TEST(PathTracer, TheSunLightsTheSideThatFacesIt) {
   EXPECT_LT(studio.mean({{-4, 0.05, 0}, {1, 0, 0}}, 64).direct.g, 0.2 * towards);
 }
 
+TEST(PathTracer, NoSurfaceStandsInItsOwnLightHoweverLowTheSun) {
+  // Convex, so that nothing else does.
+  Light light = dark_room();
+  light.sun = true;
+  light.sun_color = Vec3(2.0);
+  light.sun_azimuth = 0;
+  light.sun_size = 1e-6;
+  int facing = 0;
+  for (const Field& field : {scenes::sphere({0, 0, 0}, 1), scenes::sphere({3, 2, 30}, 0.001), scenes::sawn()}) {
+    const Box& box = field.bounds();
+    for (const double elevation : {1e-2, 1e-3, 1e-4}) {
+      light.sun_elevation = elevation;
+      Studio studio(field, light, smooth_bark(0));
+      for (int i = 0; i < 200; ++i) {
+        const double along = 0.2 + 0.6 * i / 200;
+        const Ray ray{{glm::mix(box.lo.x, box.hi.x, along), box.center().y, box.hi.z + 1}, {0, 0, -1}};
+        const CameraSample seen = studio.take(ray, i, 0);
+        const Vec3 to_sun(std::cos(elevation), 0, std::sin(elevation));
+        if (seen.branch < 0 || glm::dot(seen.normal, to_sun) < 0.5 * elevation) continue;
+        ++facing;
+        EXPECT_GT(seen.direct.g, 0) << i << ' ' << elevation;
+      }
+    }
+  }
+  EXPECT_GT(facing, 500);
+}
+
 TEST(PathTracer, TheShadowOnTheGroundLiesAwayFromTheSunWithAPenumbraOfItsSize) {
   Light light = dark_room();
   light.ground = true;
