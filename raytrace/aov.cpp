@@ -1,6 +1,7 @@
 #include "raytrace/aov.h"
 
 #include "blobtree/input_error.h"
+#include "raytrace/cryptomatte.h"
 
 namespace cambium {
 
@@ -16,11 +17,7 @@ std::span<const AovInfo> all_aovs() {
       {Aov::kRidge, "ridge", {"ridge.Y"}, false},
       {Aov::kOcclusion, "occlusion", {"occlusion.Y"}, false},
       {Aov::kSamples, "samples", {"samples.Y"}, true},
-      {Aov::kCryptomatte,
-       "cryptomatte",
-       {"CryptoBranch00.r", "CryptoBranch00.g", "CryptoBranch00.b", "CryptoBranch00.a", "CryptoBranch01.r", "CryptoBranch01.g",
-        "CryptoBranch01.b", "CryptoBranch01.a", "CryptoBranch02.r", "CryptoBranch02.g", "CryptoBranch02.b", "CryptoBranch02.a"},
-       true},
+      {Aov::kCryptomatte, "cryptomatte", matte_channels(), true},
   };
   return all;
 }

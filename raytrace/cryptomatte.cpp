@@ -42,6 +42,16 @@ float id_from_hash(std::uint32_t hash) {
 
 std::string matte_name(std::int32_t branch) { return branch < 0 ? "ground" : "branch_" + std::to_string(branch); }
 
+std::vector<std::string> matte_channels() {
+  std::vector<std::string> channels;
+  for (int layer = 0; layer < kMatteRanks / 2; ++layer) {
+    char number[3];
+    std::snprintf(number, sizeof number, "%02u", static_cast<unsigned>(layer) % 100);
+    for (const char channel : {'r', 'g', 'b', 'a'}) channels.push_back(std::string(kMatteLayer) + number + '.' + channel);
+  }
+  return channels;
+}
+
 std::array<float, 2 * kMatteRanks> matte_ranks(const FirstHitSum& hits, int samples) {
   auto shares = hits.shares;
   std::stable_sort(shares.begin(), shares.end(), [](const BranchShare& a, const BranchShare& b) { return a.samples > b.samples; });

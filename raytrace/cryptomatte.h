@@ -23,14 +23,16 @@ float id_from_hash(std::uint32_t hash);
 /// "branch_12"; "ground" for -1.
 std::string matte_name(std::int32_t branch);
 
-constexpr const char* kMatteLayer = "CryptoBranch";  // with 00, 01, 02 behind it in all_aovs()
-constexpr int kMatteRanks = FirstHitSum::kShares;
+constexpr const char* kMatteLayer = "CryptoBranch";
+constexpr int kMatteRanks = FirstHitSum::kShares;   ///< always all of them, so that crops and frames have the same layers
+/// "CryptoBranch00.r" to "CryptoBranch05.a": two ranks to a layer.
+std::vector<std::string> matte_channels();
 
 /// Ranks of one pixel, largest coverage first: id and coverage by turns, 0 where there are no more. What no branch covers (the
 /// sky) has no rank: the coverages add up to the share of samples that hit something, at most 1.
 std::array<float, 2 * kMatteRanks> matte_ranks(const FirstHitSum& hits, int samples);
 
-/// Attributes of the file for the layers `layer`00 to `layer`02: names with their texts.
+/// Attributes of the file for the layers `layer`00, `layer`01 and so on: names with their texts.
 std::vector<std::pair<std::string, std::string>> matte_metadata(std::string_view layer, const std::set<std::int32_t>& branches);
 
 }  // namespace cambium

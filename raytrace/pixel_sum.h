@@ -42,14 +42,14 @@ struct BranchShare {
 
 /// What the AOVs need beyond PixelSum, kept only if they are wanted.
 struct FirstHitSum {
-  static constexpr int kShares = 6;
+  static constexpr int kShares = 12;
 
   glm::vec3 position{0.0f};         ///< this and the next four: of the pixel's nearest hit
   glm::vec2 uv{0.0f};
   float depth = static_cast<float>(kInfinity);
   float branch = -1, order = -1;
   float ridge = 0, occlusion = 0;   ///< over the samples that hit
-  std::array<BranchShare, kShares> shares{};  ///< in the order they were met; a seventh branch in one pixel is left out
+  std::array<BranchShare, kShares> shares{};  ///< in the order they were met; a thirteenth branch in one pixel is left out
 
   void add(const CameraSample& sample);
 };

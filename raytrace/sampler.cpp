@@ -25,7 +25,8 @@ std::uint32_t scrambled(std::uint32_t x, std::uint32_t seed) {
 }  // namespace
 
 std::array<double, 2> PixelSampler::pair(std::uint32_t sample, Use use, std::uint32_t depth, std::uint32_t item) const {
-  const std::uint64_t purpose = (std::uint64_t(item) << 32) + (depth << 4) + static_cast<std::uint32_t>(use) + 1;
+  const std::uint64_t set = sample >> 16;
+  const std::uint64_t purpose = (set << 48) + (std::uint64_t(item) << 32) + (depth << 4) + static_cast<std::uint32_t>(use) + 1;
   const std::uint64_t bits = mix_bits(base_ + 0x9e3779b97f4a7c15ull * purpose);
   // Another order for each use, itself an Owen scramble so that aligned powers of two stay together (Burley 2020): else the pixel's
   // bits would go hand in hand with the lens's and the light's, and more samples would not fill what they span together.

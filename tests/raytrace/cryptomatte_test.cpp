@@ -42,6 +42,28 @@ TEST(Cryptomatte, RanksFallAndAddUpToWhatIsHit) {
   for (std::size_t i = 6; i < ranks.size(); ++i) EXPECT_EQ(ranks[i], 0);
 }
 
+TEST(Cryptomatte, ATwigBundleOfTwelveInOnePixelIsCountedWhole) {
+  FirstHitSum sum;
+  CameraSample sample;
+  sample.depth = 1;
+  for (int i = 0; i < 24; ++i) {
+    sample.branch = i % 12;
+    sum.add(sample);
+  }
+  const auto ranks = matte_ranks(sum, 24);
+  float covered = 0;
+  for (int rank = 0; rank < kMatteRanks; ++rank) covered += ranks[2 * rank + 1];
+  EXPECT_FLOAT_EQ(covered, 1);
+}
+
+TEST(Cryptomatte, TwoRanksGoToALayer) {
+  const auto channels = matte_channels();
+  ASSERT_EQ(channels.size(), 24u);
+  EXPECT_EQ(channels.front(), "CryptoBranch00.r");
+  EXPECT_EQ(channels[5], "CryptoBranch01.g");
+  EXPECT_EQ(channels.back(), "CryptoBranch05.a");
+}
+
 TEST(Cryptomatte, MetadataNamesTheLayerAndItsBranches) {
   const auto pairs = matte_metadata("CryptoBranch", {-1, 12});
   const std::map<std::string, std::string> found(pairs.begin(), pairs.end());

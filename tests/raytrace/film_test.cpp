@@ -55,7 +55,7 @@ class FilmFiles : public testing::Test {
     if (aov == Aov::kDepth) return pixel == 5 ? INFINITY : 1.0f + float(pixel);
     if (aov == Aov::kBranch) return pixel == 5 ? -1.0f : 16777213.0f;
     if (aov == Aov::kPosition) return 1000.001f * float(channel + 1) + float(pixel);
-    if (aov == Aov::kCryptomatte) return 0.001f * float(12 * pixel) + float(channel);
+    if (aov == Aov::kCryptomatte) return 0.001f * float(24 * pixel) + float(channel);
     return 0.125f * float(channel + 1);
   }
 

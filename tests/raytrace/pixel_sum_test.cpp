@@ -51,15 +51,17 @@ TEST(FirstHitSum, KeepsTheNearestHitWhole) {
   EXPECT_EQ(sum.ridge, 3);
 }
 
-TEST(FirstHitSum, CountsSamplesByBranchAndLeavesASeventhOut) {
+TEST(FirstHitSum, CountsSamplesByTwelveBranchesAndLeavesAThirteenthOut) {
   FirstHitSum sum;
-  for (int branch : {-1, 3, 3, 5, 8, 3, 9, 11, 12, 12}) sum.add(hit(1, branch));
+  for (int branch : {-1, 3, 3, 5, 8, 3, 9, 11, 12, 13, 14, 15, 16, 17, 18, 18, 17}) sum.add(hit(1, branch));
   EXPECT_EQ(sum.shares[0].branch, -1);
   EXPECT_EQ(sum.shares[1].branch, 3);
   EXPECT_EQ(sum.shares[1].samples, 3);
   int counted = 0;
   for (const BranchShare& share : sum.shares) counted += share.samples;
-  EXPECT_EQ(counted, 8);
+  EXPECT_EQ(counted, 15);
+  EXPECT_EQ(sum.shares[11].branch, 17);
+  EXPECT_EQ(sum.shares[11].samples, 2);
 }
 
 }  // namespace

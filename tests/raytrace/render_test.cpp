@@ -242,9 +242,9 @@ TEST(Render, MattesOfAPixelAddUpToWhatItsSamplesHit) {
   int shared = 0;
   for (std::size_t i = 0; i < out->film.pixels(); ++i) {
     float covered = 0;
-    for (int rank = 0; rank < 6; ++rank) covered += mattes[12 * i + 2 * rank + 1];
+    for (int rank = 0; rank < 12; ++rank) covered += mattes[24 * i + 2 * rank + 1];
     EXPECT_NEAR(covered, 1, 1e-6) << i;
-    shared += mattes[12 * i + 3] > 0;
+    shared += mattes[24 * i + 3] > 0;
   }
   EXPECT_GT(shared, 20);
   EXPECT_EQ(out->film.branches, (std::set<std::int32_t>{-1, 0, 1}));

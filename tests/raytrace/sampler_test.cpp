@@ -36,6 +36,19 @@ TEST(PixelSampler, TheFirstFourLieInFourQuarters) {
   }
 }
 
+TEST(PixelSampler, BeyondSixteenBitsItGoesOnWithoutRepeating) {
+  const PixelSampler sampler(5, 1, 3);
+  std::set<std::array<double, 2>> pairs;
+  for (std::uint32_t s = 0; s < 4 * 65536; ++s) pairs.insert(sampler.pair(s, Use::kOnward));
+  EXPECT_EQ(pairs.size(), 4u * 65536);
+  std::set<int> squares;
+  for (std::uint32_t s = 3 * 65536; s < 3 * 65536 + 16; ++s) {
+    const auto [a, b] = sampler.pair(s, Use::kOnward);
+    squares.insert(int(4 * a) * 4 + int(4 * b));
+  }
+  EXPECT_EQ(squares.size(), 16u);
+}
+
 TEST(PixelSampler, TwoUsesFillWhatTheySpanTogether) {
   // 256 points in 16 x 16 squares: random ones leave some 162 of them occupied; bits that go hand in hand leave 16 or 32.
   std::set<Use> uses{Use::kPixel, Use::kLens, Use::kOnward, Use::kSun};
