@@ -3,6 +3,11 @@
 #include "raytrace/cryptomatte.h"
 #include "raytrace/smoothing.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+
 namespace cambium {
 namespace {
 
@@ -30,21 +35,19 @@ AmbientPixel ambient_pixel(const PixelSum& sum, const Ray& middle) {
 /// The ambient part of each pixel's light over the crop.
 std::vector<glm::vec3> ambient_light(const Frame& frame, const PixelRect& crop, const DevelopOptions& options) {
   const PixelRect area = developed_area(crop, frame.whole(), options.smooth);
-  std::vector<AmbientPixel> pixels;
-  pixels.reserve(area.size());
-  for (int y = area.y0; y < area.y1; ++y) {
-    for (int x = area.x0; x < area.x1; ++x) pixels.push_back(ambient_pixel(frame.sum(x, y), options.view.ray(x + 0.5, y + 0.5)));
-  }
+  std::vector<AmbientPixel> pixels(area.size());
+  tbb::parallel_for(area.y0, area.y1, [&](int y) {
+    for (int x = area.x0; x < area.x1; ++x) pixels[area.index(x, y)] = ambient_pixel(frame.sum(x, y), options.view.ray(x + 0.5, y + 0.5));
+  });
   std::vector<glm::vec3> light;
   if (options.smooth) light = smooth_ambient(pixels, area.width(), area.height(), options.view.pixel_angle());
-  std::vector<glm::vec3> cut;
-  cut.reserve(crop.size());
-  for (int y = crop.y0; y < crop.y1; ++y) {
+  std::vector<glm::vec3> cut(crop.size());
+  tbb::parallel_for(crop.y0, crop.y1, [&](int y) {
     for (int x = crop.x0; x < crop.x1; ++x) {
       const std::size_t i = area.index(x, y);
-      cut.push_back(options.smooth ? light[i] : pixels[i].lit);
+      cut[crop.index(x, y)] = options.smooth ? light[i] : pixels[i].lit;
     }
-  }
+  });
   return cut;
 }
 
@@ -126,16 +129,17 @@ Film develop(const Frame& frame, const PixelRect& crop, const DevelopOptions& op
   film.full_height = frame.whole().height();
   film.transparent = options.transparent;
   const std::vector<glm::vec3> ambient = ambient_light(frame, crop, options);
-  film.color.reserve(4 * crop.size());
-  std::size_t i = 0;
-  for (int y = crop.y0; y < crop.y1; ++y) {
+  film.color.resize(4 * crop.size());
+  tbb::parallel_for(crop.y0, crop.y1, [&](int y) {
     for (int x = crop.x0; x < crop.x1; ++x) {
       const PixelSum& sum = frame.sum(x, y);
+      const std::size_t i = crop.index(x, y);
       const float n = sum.samples;
-      append(film.color, static_cast<float>(options.exposure) * (sum.direct / n + ambient[i++]));
-      film.color.push_back(sum.alpha / n);
+      const glm::vec3 light = static_cast<float>(options.exposure) * (sum.direct / n + ambient[i]);
+      const std::array<float, 4> rgba{light.x, light.y, light.z, sum.alpha / n};
+      std::ranges::copy(rgba, &film.color[4 * i]);
     }
-  }
+  });
   for (const Aov aov : options.aovs) film.aovs.emplace(aov, aov_values(aov, frame, crop));
   if (options.aovs.contains(Aov::kCryptomatte)) film.branches = branches_in(frame, crop);
   return film;
