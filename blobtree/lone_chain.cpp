@@ -1,7 +1,10 @@
 #include "blobtree/lone_chain.h"
 
+#include "blobtree/active_atoms.h"
 #include "blobtree/compiled_tree.h"
 #include "blobtree/tape.h"
+
+#include <algorithm>
 
 namespace cambium {
 namespace {
@@ -50,6 +53,19 @@ void ActiveChain::append(const PrunedField& field, std::vector<ActiveChain>& cha
   for (std::size_t i = 0; i < instructions.size(); ++i) {
     if (instructions[i].op == Op::kChain && instructions[i].frame == 0) chains.push_back(ActiveChain(*field.tree_, *field.tape_, i));
   }
+}
+
+bool ActiveChain::all_blend(const PrunedField& part, const Box& box) {
+  const CompiledTree& tree = *part.tree_;
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t run : tree.index.query(tree.run_bounds, FloatBox(box)))
+    for (std::uint32_t a = tree.run_first_atom[run]; a < tree.end_atom_of_run(run); ++a) near.push_back(a);
+  ActiveAtoms active;
+  find_active(tree, near, box, active);
+  TapeBuilder builder(tree);
+  const auto instructions = builder.build(active.atoms).instructions();
+  return std::all_of(instructions.begin(), instructions.end(),
+                     [&](const Instruction& in) { return is_blend(in.op) || is_plain_chain(tree, in); });
 }
 
 std::vector<ActiveChain> ActiveChain::blended(const PrunedField& field) {

@@ -25,6 +25,9 @@ class ActiveChain {
   /// the field is not like that. Cost: linear in the tape.
   static std::vector<ActiveChain> blended(const PrunedField& field);
 
+  /// Whether the whole field, which `part` is pruned from, is like that all over a box. Cost: as Field::prune().
+  static bool all_blend(const PrunedField& part, const Box& box);
+
   std::uint32_t primitive() const { return primitive_; }   ///< as Contribution::primitive
   std::uint32_t branch() const { return branch_; }
   std::uint32_t order() const { return order_; }

@@ -1,7 +1,5 @@
 #include "raytrace/chain_cells.h"
 
-#include "blobtree/lone_chain.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,7 +9,6 @@
 namespace cambium {
 namespace {
 
-constexpr std::uint32_t kUnseen = 0xffffffffu;
 constexpr double kSupport = kSupportPerRadius * (1 + 1e-9);
 
 /// How many radii from an axis the sum of so many chains can reach kIso: one of them is at least kIso over their number there.
@@ -21,27 +18,8 @@ double surface_reach(std::uint32_t chains) {
   return chains < few.size() ? few[chains] : reach(chains);
 }
 
-/// Segments of all chains that are anywhere in the cells, each made once.
-class SegmentTable {
- public:
-  /// Where a chain's segments begin.
-  std::uint32_t add(const ActiveChain& chain) {
-    if (chain.primitive() >= first_.size()) first_.resize(chain.primitive() + 1, kUnseen);
-    std::uint32_t& first = first_[chain.primitive()];
-    if (first == kUnseen) {
-      first = static_cast<std::uint32_t>(segments_.size());
-      const auto nodes = chain.nodes();
-      for (std::size_t i = 1; i < nodes.size(); ++i)
-        segments_.push_back(swept_segment(nodes[i - 1].position, nodes[i - 1].radius, nodes[i].position, nodes[i].radius));
-    }
-    return first;
-  }
-  std::vector<SweptSegment<double>> take() { return std::move(segments_); }
-
- private:
-  std::vector<std::uint32_t> first_;   ///< by primitive
-  std::vector<SweptSegment<double>> segments_;
-};
+void extend(RaySegment& hull, const RaySegment& part) { hull = {std::min(hull.begin, part.begin), std::max(hull.end, part.end)}; }
+constexpr RaySegment kNowhere{kInfinity, -kInfinity};
 
 /// Of a part of a ray, where at least two chains are active: from the second entry into a support to the last exit but one.
 class Overlap {
@@ -61,13 +39,71 @@ class Overlap {
   double first_ = kInfinity, begin_ = kInfinity, end_ = -kInfinity, last_ = -kInfinity;
 };
 
-void extend(RaySegment& hull, const RaySegment& part) { hull = {std::min(hull.begin, part.begin), std::max(hull.end, part.end)}; }
-constexpr RaySegment kNowhere{kInfinity, -kInfinity};
+/// The most that a cell's chains can be together along a ray. The distance to a segment is at least that to its axis's line, whose
+/// square is a parabola.
+class MostOfChains {
+ public:
+  /// Of a segment, `within` its support; opens_chain: of another chain than the one before.
+  void add(const AxisView& view, double support, const RaySegment& within, bool opens_chain) {
+    if (count_ == kMost) {
+      complete_ = false;
+      return;
+    }
+    const double per = 1 / (support * support);
+    parabolas_[count_++] = {within, view.square * per, view.mixed * per, view.d_square * per, opens_chain};
+  }
+  /// Holds all of the part where they may reach kIso. Parabolas are seen from the ray's place `middle`.
+  RaySegment where_surface_may_be(const RaySegment& part, double middle) const {
+    if (!complete_) return part;
+    RaySegment found = kNowhere;
+    const double step = (part.end - part.begin) / kSteps;
+    for (int i = 0; i < kSteps; ++i) {
+      const RaySegment stretch{part.begin + i * step, i + 1 == kSteps ? part.end : part.begin + (i + 1) * step};
+      if (highest(stretch, middle) >= kIso * (1 - 1e-9)) extend(found, stretch);
+    }
+    return found;
+  }
+
+ private:
+  struct Parabola {
+    RaySegment within;
+    double constant = 0, half_slope = 0, square = 0;
+    bool opens_chain = false;
+    double least(const RaySegment& stretch, double middle) const {
+      double at = stretch.begin - middle;
+      if (const double end = stretch.end - middle; half_slope + square * at < 0) at = half_slope + square * end < 0 ? end : -half_slope / square;
+      return constant + (2 * half_slope + square * at) * at;
+    }
+  };
+  double highest(const RaySegment& stretch, double middle) const {
+    double sum = 0, least = 1;
+    const auto value = [](double y) { return (1 - y) * (1 - y) * (1 - y); };
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Parabola& it = parabolas_[i];
+      if (it.opens_chain) sum += value(least), least = 1;
+      if (it.within.begin <= stretch.end && it.within.end >= stretch.begin) least = std::min(least, std::max(0.0, it.least(stretch, middle)));
+    }
+    return sum + value(least);
+  }
+
+  static constexpr int kSteps = 4;
+  static constexpr std::size_t kMost = 16;
+  std::array<Parabola, kMost> parabolas_;   // the first count_
+  std::size_t count_ = 0;
+  bool complete_ = true;
+};
+
 
 }  // namespace
 
 ChainCells::ChainCells(const SurfaceCover& cover) {
-  SegmentTable table;
+  add_cells(cover);
+  segments_.find_wood(cover);
+  tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) { narrow(cells_[i]); });
+  std::erase_if(cells_, [](const Cell& cell) { return cell.box.empty(); });
+}
+
+void ChainCells::add_cells(const SurfaceCover& cover) {
   for (std::uint32_t i = 0; i < cover.size(); ++i) {
     const PrunedField field = cover.field(i);
     const std::vector<ActiveChain> chains = ActiveChain::blended(field);
@@ -77,51 +113,61 @@ ChainCells::ChainCells(const SurfaceCover& cover) {
     }
     const auto first = static_cast<std::uint32_t>(entries_.size());
     for (const ActiveChain& chain : chains) {
-      const std::uint32_t first_of_chain = table.add(chain);
-      for (std::size_t k = 0; k < chain.segment_count(); ++k)
+      const std::uint32_t first_of_chain = segments_.add(chain);
+      for (std::size_t k = 0; k < chain.segment_count(); ++k) {
         entries_.push_back({first_of_chain + chain.segment_number(k), k == 0, true});
+        segments_.note_cell(entries_.back().segment, i);
+      }
     }
     cells_.push_back({field.box(), i, static_cast<std::uint32_t>(chains.size()), first, static_cast<std::uint32_t>(entries_.size()) - first});
   }
-  for (const SweptSegment<double>& k : table.take()) pieces_.push_back({k.a + 0.5 * k.end * k.axis, 0.5 * k.end, thickest(k), k});
-  // Support is more than twice as wide as the solid: cells that no surface reaches go.
-  tbb::parallel_for(std::size_t{0}, cells_.size(), [&](std::size_t i) {
-    Cell& cell = cells_[i];
-    const double reach = surface_reach(cell.chains);
-    bool any = false;
-    for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k)
-      any |= entries_[k].reaches = !solid_bounds(widened(pieces_[entries_[k].segment].segment, reach), cell.box).empty();
-    if (!any) cell.count = 0;
-  });
-  std::erase_if(cells_, [](const Cell& cell) { return cell.count == 0; });
 }
 
-Box ChainCells::surface_bounds(std::size_t k) const {
-  const Cell& cell = cells_[k];
-  Box box;
-  for (const Entry& entry : entries_of(cell))
-    if (entry.reaches) box.extend(solid_bounds(widened(pieces_[entry.segment].segment, surface_reach(cell.chains)), cell.box));
-  return box;
+// Support is more than twice as wide as the solid, and chains blend where one that can be half of the sum meets another's support.
+void ChainCells::narrow(Cell& cell) {
+  const double reach = surface_reach(cell.chains);
+  const std::span<Entry> entries = std::span(entries_).subspan(cell.first, cell.count);
+  Box narrowed;
+  std::size_t chain = 0, after = 0;   // the entries of the chain at hand
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].starts_chain) {
+      chain = i;
+      for (after = i + 1; after < entries.size() && !entries[after].starts_chain;) ++after;
+    }
+    const ChainSegment& segment = segments_[entries[i].segment];
+    const Box near = solid_bounds(widened(segment.swept, reach), cell.box);
+    entries[i].reaches = !near.empty();
+    if (near.empty()) continue;
+    if (!segment.is_wood) narrowed.extend(near);
+    for (std::size_t k = 0; k < entries.size(); ++k)
+      if (k < chain || k >= after) narrowed.extend(solid_bounds(widened(segments_[entries[k].segment].swept, kSupport), near));
+  }
+  cell.box = narrowed;
+  if (!narrowed.empty()) keep_active(cell);
 }
 
-bool ChainCells::Look::passes(const Piece& piece, double reach) const {
-  const Vec3 v = middle - piece.middle;
-  const double along = glm::dot(v, direction), ball = piece.half_length + reach, to_part = std::max(0.0, std::abs(along) - half);
-  return glm::dot(v, v) - along * along + to_part * to_part > ball * ball * (1 + 1e-9);
+// Of the narrowed cell, in place: fewer than there were, so that no cell's entries move into another's.
+void ChainCells::keep_active(Cell& cell) {
+  const std::span<Entry> entries = std::span(entries_).subspan(cell.first, cell.count);
+  std::size_t kept = 0;
+  std::uint32_t chains = 0;
+  bool starts_chain = false;
+  for (const Entry& entry : entries) {
+    starts_chain = starts_chain || entry.starts_chain;
+    if (solid_bounds(widened(segments_[entry.segment].swept, kSupport), cell.box).empty()) continue;
+    chains += starts_chain;
+    entries[kept++] = {entry.segment, starts_chain, entry.reaches};
+    starts_chain = false;
+  }
+  cell.count = static_cast<std::uint32_t>(kept);
+  cell.chains = chains;
 }
 
 ChainVerdict ChainCells::meet_lone(std::span<const Entry> entries, const Ray& ray, const RaySegment& part) const {
   ChainVerdict best;
-  const double middle = 0.5 * (part.begin + part.end);
-  const Look look{ray.at(middle), ray.direction, part.end - middle};
   for (const Entry& entry : entries) {
-    if (!entry.reaches) continue;
-    const Piece& piece = pieces_[entry.segment];
-    if (look.passes(piece, piece.thickest)) continue;
-    const SweptSegment<double>& segment = piece.segment;
-    const AxisView view(segment, ray, middle);
-    if (!view.comes_within(piece.thickest)) continue;
-    const auto t = first_inside(segment, ray, part, view);
+    if (!entry.reaches || segments_[entry.segment].is_wood) continue;
+    const auto t = segments_.meet(entry.segment, ray, part);
     if (t && *t < best.t) best = {ChainVerdict::How::kHit, *t, entry.segment, {}};
   }
   return best;
@@ -133,69 +179,49 @@ ChainVerdict ChainCells::judge(std::size_t k, const Ray& ray, const RaySegment& 
   if (cell.chains == 1) return meet_lone(entries, ray, part);
 
   const double middle = 0.5 * (part.begin + part.end);
-  const Look look{ray.at(middle), ray.direction, part.end - middle};
+  const RayLook look{ray.at(middle), ray.direction, part.end - middle};
   ChainVerdict solid;
+  double wood_or_solid = kInfinity;   // wood in the cell, and not what the ray met elsewhere: that would depend on the order of cells
   Overlap overlap;
+  MostOfChains most;
   RaySegment active = kNowhere;   // of the chain at hand
-  double least_square = 1, most_in_all = 0;   // its (distance over support)^2, and the chains' largest values together
   const auto finish_chain = [&] {
     if (active.begin <= active.end) overlap.add(active);
-    most_in_all += (1 - least_square) * (1 - least_square) * (1 - least_square);
     active = kNowhere;
-    least_square = 1;
   };
   for (const Entry& entry : entries) {
     if (entry.starts_chain) finish_chain();
-    const Piece& piece = pieces_[entry.segment];
-    const double support = kSupport * piece.thickest;
-    if (look.passes(piece, support)) continue;
-    const SweptSegment<double>& segment = piece.segment;
-    const AxisView view(segment, ray, middle);
+    const ChainSegment& segment = segments_[entry.segment];
+    const double support = kSupport * segment.thickest;
+    if (look.passes(segment, support)) continue;
+    const AxisView view(segment.swept, ray, middle);
     if (!view.comes_within(support)) continue;
-    const auto within = part_within(segment, support, part, view);
+    const auto within = part_within(segment.swept, support, part, view);
     if (!within) continue;
+    const bool is_next = !(active.begin <= active.end);
     extend(active, *within);
-    least_square = std::min(least_square, view.nearest_square() / (support * support));
-    if (!entry.reaches || !view.comes_within(piece.thickest)) continue;
-    const auto t = first_inside(segment, ray, part, view);
-    if (t && wanted == PlaceWanted::kAny) return {ChainVerdict::How::kHit, *t, entry.segment, {}};
-    if (t && *t < solid.t) solid = {ChainVerdict::How::kHit, *t, entry.segment, {}};
+    most.add(view, support, *within, is_next);
+    if (!entry.reaches || !view.comes_within(segment.thickest)) continue;
+    const auto t = first_inside(segment.swept, ray, part, view);
+    if (!t) continue;
+    wood_or_solid = std::min(wood_or_solid, *t);
+    if (segment.is_wood) continue;
+    if (wanted == PlaceWanted::kAny) return {ChainVerdict::How::kHit, *t, entry.segment, {}};
+    if (*t < solid.t) solid = {ChainVerdict::How::kHit, *t, entry.segment, {}};
   }
   finish_chain();
   // The first solid is a hit, and where there is none a miss, if before it no two chains are active at once: each is as if alone.
-  if (most_in_all < kIso * (1 - 1e-9) || !overlap.any()) return solid;
-  RaySegment search = overlap.part();
-  search.end = std::min(search.end, solid.t);
-  if (search.begin <= search.end) search = near_surface(cell, ray, search);
+  if (!overlap.any()) return solid;
+  const RaySegment both{overlap.part().begin, std::min(overlap.part().end, wood_or_solid)};
+  if (!(both.begin <= both.end)) return solid;
+  const RaySegment search = most.where_surface_may_be(both, middle);
   if (!(search.begin <= search.end)) return solid;
   return {ChainVerdict::How::kSearch, solid.t, solid.segment, search};
 }
 
-RaySegment ChainCells::near_surface(const Cell& cell, const Ray& ray, const RaySegment& part) const {
-  const double middle = 0.5 * (part.begin + part.end), reach = surface_reach(cell.chains);
-  const Look look{ray.at(middle), ray.direction, part.end - middle};
-  RaySegment near = kNowhere;
-  for (const Entry& entry : entries_of(cell)) {
-    if (!entry.reaches) continue;
-    const Piece& piece = pieces_[entry.segment];
-    const SweptSegment<double>& segment = piece.segment;
-    const double distance = reach * piece.thickest;
-    if (look.passes(piece, distance)) continue;
-    const AxisView view(segment, ray, middle);
-    if (!view.comes_within(distance)) continue;
-    if (const auto within = part_within(segment, distance, part, view)) extend(near, *within);
-  }
-  return near;
-}
-
-double ChainCells::radius(std::uint32_t segment, const Vec3& p) const {
-  const SweptSegment<double>& k = pieces_[segment].segment;
-  return k.radius_at(closest_parameter(k, p - k.a));
-}
-
 std::size_t ChainCells::memory_bytes() const {
   return cells_.capacity() * sizeof(Cell) + entries_.capacity() * sizeof(Entry) + others_.capacity() * sizeof(std::uint32_t) +
-         pieces_.capacity() * sizeof(pieces_[0]);
+         segments_.memory_bytes();
 }
 
 }  // namespace cambium

@@ -1,12 +1,11 @@
-// The cells of a cover in which nothing but chains is active, made ready for rays. Where a ray meets one chain alone, its hit is
-// in closed form; where several blend, the chains' solids bound the root: the field is at least each of them, at most their sum.
+// The cells of a cover in which nothing but chains is active, made ready for rays. Chains' solids bound the surface there: the field
+// is at least each of them, at most their sum. So what is not yet known once the wood is met (chain_segments.h) is where several
+// chains blend, and chains that are no wood all over.
 #pragma once
 
-#include "blobtree/surface_cover.h"
-#include "raytrace/swept_hit.h"
+#include "raytrace/chain_segments.h"
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,13 +14,13 @@ namespace cambium {
 /// What the chains of a cell tell of a ray.
 struct ChainVerdict {
   enum class How {
-    kMiss,     ///< no surface on that part of the ray
+    kMiss,     ///< no surface on that part of the ray but, perhaps, wood
     kHit,      ///< at t, on a segment
-    kSearch,   ///< the first place inside, if any, is in `part`, or at t
+    kSearch,   ///< the first place inside, if any, is in `part`, or at t, or it is wood
   };
   How how = How::kMiss;
   double t = kInfinity;        ///< a place that is inside, if one is known
-  std::uint32_t segment = 0;   ///< for normal() and radius()
+  std::uint32_t segment = 0;   ///< of ChainSegments
   RaySegment part;
 };
 
@@ -32,18 +31,14 @@ class ChainCells {
   /// Cost: proportional to the cells; parallel.
   explicit ChainCells(const SurfaceCover& cover);
 
-  /// Those in which there may be surface. Ascending by cell.
+  const ChainSegments& segments() const { return segments_; }
+  /// Those in which there may be surface that is not of wood alone. Ascending by cell.
   std::size_t size() const { return cells_.size(); }
   std::uint32_t cell(std::size_t k) const { return cells_[k].cell; }   ///< its number in the cover
-  Box surface_bounds(std::size_t k) const;                             ///< of what surface there may be in the k-th
-  const Box& box(std::size_t k) const { return cells_[k].box; }
-  /// Of the part of a ray in the k-th cell: its first place inside, which is the part's begin where that is; or any place inside.
+  const Box& box(std::size_t k) const { return cells_[k].box; }        ///< of that surface, in the cell
+  /// Of the part of a ray in box(k): its first place inside, which is the part's begin where that is; or any place inside.
   /// Error of a hit: as first_inside(). Cost: proportional to the segments active in the cell.
   ChainVerdict judge(std::size_t k, const Ray& ray, const RaySegment& part, PlaceWanted wanted) const;
-
-  /// Outward, at a point of a segment's surface, and the radius there, metres.
-  Vec3 normal(std::uint32_t segment, const Vec3& p) const { return swept_normal(pieces_[segment].segment, p); }
-  double radius(std::uint32_t segment, const Vec3& p) const;
 
   const std::vector<std::uint32_t>& others() const { return others_; }   ///< cells where anything else is active, ascending
   std::size_t memory_bytes() const;
@@ -61,26 +56,14 @@ class ChainCells {
     bool starts_chain = false;                ///< the first of its chain in the cell
     bool reaches = true;                      ///< near enough to the cell that it can have part in its surface
   };
-  /// A segment, with the ball around its axis by which rays that pass it are told: what of it is read first.
-  struct Piece {
-    Vec3 middle{0.0};
-    double half_length = 0, thickest = 0;
-    SweptSegment<double> segment;
-  };
-  /// The part of a ray in a cell, from its middle.
-  struct Look {
-    Vec3 middle, direction;
-    double half = 0;
-    /// Whether it surely stays farther than `reach` from the axis.
-    bool passes(const Piece& piece, double reach) const;
-  };
   std::span<const Entry> entries_of(const Cell& cell) const { return std::span(entries_).subspan(cell.first, cell.count); }
+  void add_cells(const SurfaceCover& cover);
+  void narrow(Cell& cell);
+  void keep_active(Cell& cell);
   ChainVerdict meet_lone(std::span<const Entry> entries, const Ray& ray, const RaySegment& part) const;
-  /// The part of it, and a little more, where the cell's chains can reach kIso together; none where begin > end.
-  RaySegment near_surface(const Cell& cell, const Ray& ray, const RaySegment& part) const;
+  ChainSegments segments_;
   std::vector<Cell> cells_;
   std::vector<Entry> entries_;
-  std::vector<Piece> pieces_;
   std::vector<std::uint32_t> others_;
 };
 

@@ -6,6 +6,8 @@
 namespace cambium {
 namespace {
 
+constexpr double kHardly = 1e-9;
+
 /// Where a ray through q enters a ball; NaN if it passes it.
 double enter_ball(const Vec3& q, const Vec3& direction, const Vec3& center, double radius) {
   const Vec3 v = q - center;
@@ -62,7 +64,8 @@ std::optional<double> first_inside(const SweptSegment<double>& k, const Ray& ray
   if (flank.how == Flank::kUnknown) t = std::fmin(into_begin(), into_end());   // of both what is entered first is the hull's
   t += 0.5 * (part.begin + part.end);
   if (t >= part.begin && t <= part.end) return t;
-  if (t < part.begin && swept_ratio(k, ray.at(part.begin)) <= 1) return part.begin;
+  // Who starts on the surface and goes in has entered it hardly before; a chord of 1e-9 radii is nowhere deep enough to matter.
+  if (t < part.begin && (part.begin - t <= kHardly * thickest(k) || swept_ratio(k, ray.at(part.begin)) <= 1)) return part.begin;
   return std::nullopt;
 }
 

@@ -17,6 +17,7 @@ namespace cambium {
 namespace {
 
 constexpr std::size_t kMostCells = 4000000;   // beyond, the hierarchy would take more memory than it saves time
+constexpr double kCellRadii = 3.2;            // half of this is as fast, and takes twice the memory
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr float kFloatMax = std::numeric_limits<float>::max();
 
@@ -39,8 +40,8 @@ struct Query {
   double entry = 0;  // Embree's t = 0
   RaySegment segment;
   double t = kInfinity;                  // of the nearest hit
-  std::uint32_t cell = kNone;          // the one it is in
-  std::uint32_t on_segment = kNone;      // set where that is a chain alone
+  std::uint32_t cell = kNone;            // the one it is in, unless it is on a segment
+  std::uint32_t on_segment = kNone;      // set where that is in closed form
 
   Query(const Ray& of, Evaluator& with, PlaceWanted what) : ray(of), clipper(of), evaluator(with), wanted(what) {
 #if CAMBIUM_EMBREE_MAJOR >= 4
@@ -49,14 +50,14 @@ struct Query {
     rtcInitIntersectContext(&context);
 #endif
   }
-  bool found() const { return cell != kNone; }
+  bool found() const { return t < kInfinity; }
 
-  /// Two cells that touch can find the same point; the lower one wins, so traversal order does not show.
-  bool take(double at, std::uint32_t in_cell, std::uint32_t segment_number) {
-    if (at > t || (at == t && in_cell > cell)) return false;
+  /// Two segments or cells that touch can find the same point; segments win, and the lower one does, so traversal order does not show.
+  bool take(double at, std::uint32_t segment_number, std::uint32_t in_cell) {
+    if (at > t || (at == t && std::pair(segment_number, in_cell) >= std::pair(on_segment, cell))) return false;
     t = at;
-    cell = in_cell;
     on_segment = segment_number;
+    cell = in_cell;
     return true;
   }
 };
@@ -73,16 +74,18 @@ struct Tracer::Scene {
   RTCScene scene = nullptr;
   const SurfaceCover& cover;
   ChainCells chains;
+  std::vector<ChainSegments::Piece> pieces;
   Vec3 center{0.0};   // float coordinates are relative to this
   double pad = 0;     // covers what a ray loses by being rounded to float
 
-  Scene(const SurfaceCover& cells, const Box& bounds) : cover(cells), chains(cells) {
+  Scene(const SurfaceCover& cells, const Box& bounds) : cover(cells), chains(cells), pieces(chains.segments().wood_pieces()) {
     center = bounds.center();
     pad = 2e-6 * glm::length(bounds.size());
     device = rtcNewDevice(nullptr);
     if (!device) throw std::runtime_error("Embree could not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    attach<WoodKind>(pieces.size());
     attach<ChainKind>(chains.size());
     attach<OtherKind>(chains.others().size());
     rtcCommitScene(scene);
@@ -105,24 +108,33 @@ struct Tracer::Scene {
 
   bool search(Query& query, const PrunedField& field, const RaySegment& part, std::uint32_t cell) const {
     if (query.wanted == PlaceWanted::kAny) {
-      return any_inside(query.evaluator, field, query.ray, part) && query.take(part.begin, cell, kNone);
+      return any_inside(query.evaluator, field, query.ray, part) && query.take(part.begin, kNone, cell);
     }
     const auto t = first_root(query.evaluator, field, query.ray, part);
-    return t && query.take(*t, cell, kNone);
+    return t && query.take(*t, kNone, cell);
   }
 
-  /// Cells with chains only: in closed form where one is alone on the ray.
+  /// Chains where nothing is taken away from them, in closed form.
+  struct WoodKind {
+    static Box bounds(const Scene& self, unsigned k) { return self.chains.segments().box(self.pieces[k]); }
+    static bool solve(const Scene& self, Query& query, unsigned k) {
+      const std::uint32_t segment = self.pieces[k].segment;
+      const auto t = self.chains.segments().meet(segment, query.ray, query.segment);
+      return t && query.take(*t, segment, kNone);
+    }
+  };
+  /// Cells with chains only: where they blend, roots of the field.
   struct ChainKind {
-    static Box bounds(const Scene& self, unsigned k) { return self.chains.surface_bounds(k); }
+    static Box bounds(const Scene& self, unsigned k) { return self.chains.box(k); }
     static bool solve(const Scene& self, Query& query, unsigned k) {
       const auto part = query.clipper.clip(self.chains.box(k), query.segment);
       if (!part || part->begin > query.t) return false;
       const ChainVerdict verdict = self.chains.judge(k, query.ray, *part, query.wanted);
       if (verdict.how == ChainVerdict::How::kMiss) return false;
+      if (verdict.how == ChainVerdict::How::kHit) return query.take(verdict.t, verdict.segment, kNone);
       const std::uint32_t cell = self.chains.cell(k);
-      if (verdict.how == ChainVerdict::How::kHit) return query.take(verdict.t, cell, verdict.segment);
-      return self.search(query, self.cover.field(cell), verdict.part, cell) ||
-             (verdict.t < kInfinity && query.take(verdict.t, cell, kNone));
+      return (verdict.part.begin <= query.t && self.search(query, self.cover.field(cell), verdict.part, cell)) ||
+             (verdict.t < kInfinity && query.take(verdict.t, verdict.segment, kNone));
     }
   };
   /// Cells with anything else: roots of the field.
@@ -198,12 +210,25 @@ struct Tracer::Scene {
     return true;
   }
 
+  /// The cell that holds a point of a segment's surface, which may be off by a rounding. Deep inside, where a ray may begin, are none.
+  std::uint32_t cell_at(const Vec3& p, std::uint32_t segment, double radius) const {
+    if (const auto cell = cover.find(p)) return static_cast<std::uint32_t>(*cell);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 aside{corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1};
+      if (const auto cell = cover.find(p + 1e-6 * radius * aside)) return static_cast<std::uint32_t>(*cell);
+    }
+    return chains.segments()[segment].cell;
+  }
+
   SurfaceHit hit_of(const Query& query) const {
-    const PrunedField field = cover.field(query.cell);
     const Vec3 p = query.ray.at(query.t);
     if (query.on_segment != kNone) {
-      return {query.t, query.cell, true, chains.normal(query.on_segment, p), chains.radius(query.on_segment, p)};
+      const ChainSegments& segments = chains.segments();
+      const Vec3 normal = segments.normal(query.on_segment, p);
+      const double radius = segments.radius(query.on_segment, p);
+      return {query.t, cell_at(p, query.on_segment, radius), true, normal, radius};
     }
+    const PrunedField field = cover.field(query.cell);
     const Vec3 gradient = query.evaluator.sample(field, glm::clamp(p, field.box().lo, field.box().hi)).gradient;
     const double steepness = glm::length(gradient);
     return {query.t, query.cell, false, steepness > 0 ? -gradient / steepness : -query.ray.direction, radius_in(field)};
@@ -213,6 +238,7 @@ struct Tracer::Scene {
 CoverOptions tracing_cells() {
   CoverOptions cells;
   cells.max_cells = kMostCells;
+  cells.cell_radii = kCellRadii;
   return cells;
 }
 

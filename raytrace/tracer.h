@@ -12,10 +12,10 @@ namespace cambium {
 
 struct SurfaceHit {
   double t = 0;             ///< metres along the ray
-  std::uint32_t cell = 0;   ///< index of the cell it was found in
-  bool analytic = false;    ///< on a chain that is alone there: solved in closed form
+  std::uint32_t cell = 0;   ///< index of the cell that holds it
+  bool analytic = false;    ///< on a chain's own solid: solved in closed form
   Vec3 normal{0.0};         ///< outward unit normal; against the ray where the field has none
-  double radius = 0;        ///< of the branch, metres: on a lone chain that of the axis nearest, else the smallest in the cell
+  double radius = 0;        ///< of the branch, metres: on a chain's own solid that of the axis nearest, else the smallest in the cell
 };
 
 /// The hit's point, raised off the surface just far enough (4e-6 of the radius) that a ray from there that leaves the surface does
