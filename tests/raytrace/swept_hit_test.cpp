@@ -138,5 +138,25 @@ TEST(SolidBounds, HoldEveryHitInTheBox) {
   EXPECT_GT(held, 300);
 }
 
+TEST(FirstInside, IsAtOnceForARayThatStartsOnTheSurfaceAndGoesIn) {
+  Draws draws(23);
+  int inward = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const SweptSegment<double> k = random_segment(draws);
+    const double far = 3 * (k.end + 2 * thickest(k));
+    const Ray other = ray_at(k, draws, far);
+    const auto t = first_inside(k, other, {0, 2 * far});
+    if (!t) continue;
+    const Vec3 p = other.at(*t);
+    const Ray ray{p, draws.direction()};
+    if (glm::dot(ray.direction, swept_normal(k, p)) > -1e-3) continue;
+    const auto again = first_inside(k, ray, {0, far});
+    ++inward;
+    ASSERT_TRUE(again) << i;
+    EXPECT_LT(*again, 1e-9 * thickest(k)) << i;
+  }
+  EXPECT_GT(inward, 1000);
+}
+
 }  // namespace
 }  // namespace cambium
