@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kMostCells = 4000000;   // beyond, the hierarchy would take more memory than it saves time
 constexpr double kCellRadii = 3.2;            // half of this is as fast, and takes twice the memory
+constexpr double kDeep = 1e-3;                // of f: far more than a root may be off
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr float kFloatMax = std::numeric_limits<float>::max();
 
@@ -75,10 +76,12 @@ struct Tracer::Scene {
   const SurfaceCover& cover;
   ChainCells chains;
   std::vector<ChainSegments::Piece> pieces;
+  const Box& bounds;  // of the cells
   Vec3 center{0.0};   // float coordinates are relative to this
   double pad = 0;     // covers what a ray loses by being rounded to float
 
-  Scene(const SurfaceCover& cells, const Box& bounds) : cover(cells), chains(cells), pieces(chains.segments().wood_pieces()) {
+  Scene(const SurfaceCover& cells, const Box& of_cells)
+      : cover(cells), chains(cells), pieces(chains.segments().wood_pieces()), bounds(of_cells) {
     center = bounds.center();
     pad = 2e-6 * glm::length(bounds.size());
     device = rtcNewDevice(nullptr);
@@ -190,7 +193,7 @@ struct Tracer::Scene {
   }
 
   /// Embree's ray from where it enters the padded bounds. False if it passes them.
-  bool prepare(const Box& bounds, double t_end, Query& query, RTCRay& out) const {
+  bool prepare(double t_end, Query& query, RTCRay& out) const {
     const Ray& ray = query.ray;
     const auto inside = query.clipper.clip(bounds, {0, t_end});
     if (!inside) return false;
@@ -210,14 +213,23 @@ struct Tracer::Scene {
     return true;
   }
 
-  /// The cell that holds a point of a segment's surface, which may be off by a rounding. Deep inside, where a ray may begin, are none.
-  std::uint32_t cell_at(const Vec3& p, std::uint32_t segment, double radius) const {
+  /// The cell that holds a point of a segment's surface, which may be off by a rounding. None where that is deep in the wood.
+  std::optional<std::uint32_t> cell_at(const Vec3& p, double radius) const {
     if (const auto cell = cover.find(p)) return static_cast<std::uint32_t>(*cell);
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 aside{corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1};
       if (const auto cell = cover.find(p + 1e-6 * radius * aside)) return static_cast<std::uint32_t>(*cell);
     }
-    return chains.segments()[segment].cell;
+    return std::nullopt;
+  }
+
+  /// Deep inside there are no cells: a ray that begins where none is, and comes first to a place that is deep too, has been inside
+  /// from the start.
+  bool began_inside(const Query& query, std::optional<std::uint32_t> cell, const Vec3& p) const {
+    if (query.t == 0 || !bounds.contains(query.ray.origin) || cover.find(query.ray.origin)) return false;
+    if (!cell) return true;
+    const PrunedField field = cover.field(*cell);
+    return query.evaluator.value(field, glm::clamp(p, field.box().lo, field.box().hi)) > kIso + kDeep;
   }
 
   SurfaceHit hit_of(const Query& query) const {
@@ -226,12 +238,14 @@ struct Tracer::Scene {
       const ChainSegments& segments = chains.segments();
       const Vec3 normal = segments.normal(query.on_segment, p);
       const double radius = segments.radius(query.on_segment, p);
-      return {query.t, cell_at(p, query.on_segment, radius), true, normal, radius};
+      const auto cell = cell_at(p, radius);
+      return {began_inside(query, cell, p) ? 0 : query.t, cell.value_or(segments[query.on_segment].cell), true, normal, radius};
     }
     const PrunedField field = cover.field(query.cell);
     const Vec3 gradient = query.evaluator.sample(field, glm::clamp(p, field.box().lo, field.box().hi)).gradient;
     const double steepness = glm::length(gradient);
-    return {query.t, query.cell, false, steepness > 0 ? -gradient / steepness : -query.ray.direction, radius_in(field)};
+    return {began_inside(query, query.cell, p) ? 0 : query.t, query.cell, false,
+            steepness > 0 ? -gradient / steepness : -query.ray.direction, radius_in(field)};
   }
 };
 
@@ -252,7 +266,7 @@ Tracer::~Tracer() = default;
 std::optional<SurfaceHit> Tracer::intersect(Evaluator& evaluator, const Ray& ray) const {
   Query query(ray, evaluator, PlaceWanted::kFirst);
   RTCRayHit rayhit;
-  if (!scene_ || !scene_->prepare(bounds_, kInfinity, query, rayhit.ray)) return std::nullopt;
+  if (!scene_ || !scene_->prepare(kInfinity, query, rayhit.ray)) return std::nullopt;
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rayhit.hit.primID = RTC_INVALID_GEOMETRY_ID;
 #if CAMBIUM_EMBREE_MAJOR >= 4
@@ -270,7 +284,7 @@ std::optional<SurfaceHit> Tracer::intersect(Evaluator& evaluator, const Ray& ray
 bool Tracer::occluded(Evaluator& evaluator, const Ray& ray, double t_end) const {
   Query query(ray, evaluator, PlaceWanted::kAny);
   RTCRay embree_ray;
-  if (!scene_ || !scene_->prepare(bounds_, t_end, query, embree_ray)) return false;
+  if (!scene_ || !scene_->prepare(t_end, query, embree_ray)) return false;
 #if CAMBIUM_EMBREE_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);

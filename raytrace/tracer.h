@@ -38,7 +38,7 @@ class Tracer {
 
   /// The nearest surface point with t > 0 (t = 0 where the ray starts inside); solved in double, whatever Embree does in float.
   std::optional<SurfaceHit> intersect(Evaluator& evaluator, const Ray& ray) const;
-  /// Whether anything stands before t_end.
+  /// Whether anything stands before t_end. Who starts so deep inside that no cell is there, and ends before the first, meets nothing.
   bool occluded(Evaluator& evaluator, const Ray& ray, double t_end = kInfinity) const;
 
  private:

@@ -88,7 +88,8 @@ class Judge {
   Fault shadow_fault(double tolerance) {
     const double before = verdict_.early - tolerance;
     if (before > 0 && occluded(before)) return Fault::kFalseShadow;
-    if (!verdict_.hit || occluded(verdict_.t + tolerance)) return Fault::kNone;
+    const bool deep = verdict_.t == 0 && !subject_.tracer.cover().find(ray_.origin);
+    if (!verdict_.hit || occluded(deep ? kInfinity : verdict_.t + tolerance)) return Fault::kNone;
     verdict_.touching = true;
     verdict_.late = reference(kIso + kTouching);
     return verdict_.late <= verdict_.t ? Fault::kShadowMissed : Fault::kNone;
@@ -243,6 +244,22 @@ TEST(ExactHits, OnRandomBlobTrees) {
     all.add(count);
   }
   print(all, "all");
+}
+
+TEST(ExactHits, ARayThatStartsDeeperThanAnyCellIsAtItsFirstPlaceWhereItStarts) {
+  BlobTreeBuilder builder;
+  const Field ball(builder.build(builder.add(Sphere{{0, 0, 0}, 1})));
+  CoverOptions cells;
+  cells.cell = 0.05;
+  const Tracer tracer(*cover_surface(ball, cells, {}));
+  ASSERT_FALSE(tracer.cover().find({0, 0, 0}));
+  Evaluator evaluator;
+  Draws draws(3);
+  for (int i = 0; i < 200; ++i) {
+    const auto hit = tracer.intersect(evaluator, {0.8 * draws.in(0, 1) * draws.direction(), draws.direction()});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->t, 0);
+  }
 }
 
 TEST(ExactHits, OnThePoplar) {
