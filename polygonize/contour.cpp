@@ -1,16 +1,14 @@
 #include "polygonize/contour.h"
 
 #include "polygonize/cube_edges.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "polygonize/ordered_chunks.h"
 
 #include <algorithm>
 
 namespace cambium {
 namespace {
 
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kChunk = 1 << 16;
 
 template <class T>
 void sort_unique(std::vector<T>& v) {
@@ -48,53 +46,55 @@ std::vector<std::array<std::uint32_t, 2>> crease_edges(const Contour& contour) {
   return creases;
 }
 
-Contour compacted(Contour&& contour) {
-  Contour result;
-  const auto living = [](std::size_t n, const auto& alive, std::vector<std::uint32_t>& now) {
-    std::vector<std::uint32_t> list;
-    now.assign(n, kNoPatch);
-    for (std::uint32_t i = 0; i < n; ++i) {
-      if (!alive(i)) continue;
-      now[i] = static_cast<std::uint32_t>(list.size());
-      list.push_back(i);
-    }
-    return list;
-  };
-  std::vector<std::uint32_t> edge_now, patch_now;
-  const auto edges = living(contour.edges.size(), [&](std::size_t e) { return contour.edge_alive[e] != 0; }, edge_now);
-  const auto patches = living(contour.patches.size(), [&](std::size_t p) { return contour.patches[p].alive(); }, patch_now);
-  const auto gather = [](auto& from, const std::vector<std::uint32_t>& list, auto& to, const auto& change) {
-    to.resize(list.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, list.size(), kGrain), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) to[i] = change(from[list[i]]);
-    });
-    from = {};
-  };
-  const auto same = [](const auto& item) { return item; };
-  for (const CreaseExit& exit : contour.exits) {
-    if (contour.patches[exit.patch].alive()) result.exits.push_back({patch_now[exit.patch], edge_now[exit.edge], edge_now[exit.next_edge]});
-  }
-  std::sort(result.exits.begin(), result.exits.end());
-  contour.exits = {};
-  contour.edge_alive = {};
-  result.edge_alive.assign(edges.size(), 1);
-  gather(contour.edges, edges, result.edges, same);
-  gather(contour.crossings, edges, result.crossings, same);
-  gather(contour.patch_of_quadrant, edges, result.patch_of_quadrant, [&](std::array<std::uint32_t, 4> around) {
-    for (std::uint32_t& patch : around) patch = patch_now[patch];
-    return around;
+namespace {
+
+template <class IsAlive>
+std::vector<std::uint32_t> listed_if(std::size_t n, IsAlive&& is_alive) {
+  auto parts = in_chunks<std::vector<std::uint32_t>>(n, kChunk, [&](auto& part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (is_alive(i)) part.push_back(static_cast<std::uint32_t>(i));
   });
-  gather(contour.vertices, patches, result.vertices, same);
-  std::uint32_t at = 0;
-  for (const std::uint32_t p : patches) at += contour.patches[p].edge_count;
-  result.rings.reserve(at);
-  for (const std::uint32_t p : patches)
-    for (const std::uint32_t e : contour.ring(p)) result.rings.push_back(edge_now[e]);
-  contour.rings = {};
-  gather(contour.patches, patches, result.patches, same);
-  at = 0;
-  for (Patch& patch : result.patches) patch.first_edge = at, at += patch.edge_count;
-  return result;
+  std::vector<std::uint32_t> all;
+  append_parts(parts, all);
+  return all;
+}
+
+}  // namespace
+
+Living living_part(const Contour& contour) {
+  return {listed_if(contour.edges.size(), [&](std::size_t e) { return contour.edge_alive[e] != 0; }),
+          listed_if(contour.patches.size(), [&](std::size_t p) { return contour.patches[p].alive(); })};
+}
+
+std::vector<std::uint32_t> numbers_among(const std::vector<std::uint32_t>& kept, std::size_t n) {
+  std::vector<std::uint32_t> now(n, kNoPatch);
+  for (std::uint32_t i = 0; i < kept.size(); ++i) now[kept[i]] = i;
+  return now;
+}
+
+void compact(Contour& contour, const Living& living) {
+  const std::vector<std::uint32_t> edge_now = numbers_among(living.edges, contour.edges.size());
+  const std::vector<std::uint32_t> patch_now = numbers_among(living.patches, contour.patches.size());
+  std::erase_if(contour.exits, [&](const CreaseExit& exit) { return patch_now[exit.patch] == kNoPatch; });
+  for (CreaseExit& exit : contour.exits) exit = {patch_now[exit.patch], edge_now[exit.edge], edge_now[exit.next_edge]};
+  std::sort(contour.exits.begin(), contour.exits.end());
+  std::uint32_t rings = 0;   // none lies before those of lower patches
+  for (const std::uint32_t p : living.patches) {
+    Patch& patch = contour.patches[p];
+    for (std::uint32_t k = 0; k < patch.edge_count; ++k) contour.rings[rings + k] = edge_now[contour.rings[patch.first_edge + k]];
+    patch.first_edge = rings;
+    rings += patch.edge_count;
+  }
+  contour.rings.resize(rings);
+  contour.rings.shrink_to_fit();
+  for (const std::uint32_t e : living.edges)
+    for (std::uint32_t& patch : contour.patch_of_quadrant[e]) patch = patch_now[patch];
+  keep_listed(contour.edges, living.edges);
+  keep_listed(contour.edge_alive, living.edges);
+  keep_listed(contour.crossings, living.edges);
+  keep_listed(contour.patch_of_quadrant, living.edges);
+  keep_listed(contour.patches, living.patches);
+  keep_listed(contour.vertices, living.patches);
 }
 
 }  // namespace cambium

@@ -51,8 +51,25 @@ struct Contour {
   }
 };
 
-/// The living part, renumbered in order. Lets go of what it was made of as it goes.
-Contour compacted(Contour&& contour);
+/// The numbers of what lives, ascending.
+struct Living {
+  std::vector<std::uint32_t> edges, patches;
+};
+Living living_part(const Contour& contour);
+
+/// Only what lives, renumbered in order.
+void compact(Contour& contour, const Living& living);
+
+/// By old number the new one, where only those listed, ascending, are kept of n; kNoPatch for the others.
+std::vector<std::uint32_t> numbers_among(const std::vector<std::uint32_t>& kept, std::size_t n);
+
+/// Only those listed, ascending.
+template <class T>
+void keep_listed(std::vector<T>& items, const std::vector<std::uint32_t>& kept) {
+  for (std::size_t i = 0; i < kept.size(); ++i) items[i] = items[kept[i]];
+  items.resize(kept.size());
+  items.shrink_to_fit();
+}
 
 /// Pairs of patches that a crease runs between, lower first, ascending. Of a compacted contour.
 std::vector<std::array<std::uint32_t, 2>> crease_edges(const Contour& contour);

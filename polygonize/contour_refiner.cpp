@@ -31,15 +31,43 @@ void append_numbers(std::vector<std::uint32_t>& list, std::size_t from, std::siz
 
 std::optional<ContourRefiner> ContourRefiner::begin(SurfaceOctree tree, const SurfaceCover& cover, const RunOptions& run) {
   ContourRefiner refiner(std::move(tree), cover);
-  auto found = crossed_minimal_edges(refiner.tree_, run);
-  if (!found) return std::nullopt;
-  refiner.patches_of_leaf_.assign(refiner.tree_.leaves().size(), {0, 0});
-  refiner.touched_.resize(refiner.tree_.leaves().size());
-  refiner.add_edges(std::move(found->edges));
-  std::vector<std::uint32_t> to_split = refiner.trace(0);
-  to_split.insert(to_split.end(), found->to_split.begin(), found->to_split.end());
-  if (run.cancelled() || !refiner.split(std::move(to_split), run)) return std::nullopt;
+  if (!refiner.add_leaves(0, run)) return std::nullopt;
   return refiner;
+}
+
+bool ContourRefiner::fill(const RunOptions& run) {
+  const std::size_t first_new = tree_.leaves().size();
+  return tree_.fill(*cover_, run) && add_leaves(first_new, run);
+}
+
+// What was nothing had no edges, so that all edges are new that any of the leaves from `first_new` on touches.
+bool ContourRefiner::add_leaves(std::size_t first_new, const RunOptions& run) {
+  auto found = crossed_minimal_edges(tree_, run);
+  if (!found) return false;
+  if (first_new > 0) {
+    std::erase_if(found->edges, [&](const MinimalEdge& edge) {
+      return std::all_of(edge.leaves.begin(), edge.leaves.end(), [&](std::uint32_t leaf) { return leaf < first_new; });
+    });
+  }
+  resize_by_leaf();
+  const std::size_t first_added = contour_.edges.size();
+  add_edges(std::move(found->edges));
+  std::vector<std::uint32_t> to_split = trace(first_added);
+  to_split.insert(to_split.end(), found->to_split.begin(), found->to_split.end());
+  return !run.cancelled() && split(std::move(to_split), run);
+}
+
+// What is kept by leaf is let go of by compact(). Patches of one leaf follow each other.
+void ContourRefiner::resize_by_leaf() {
+  if (patches_of_leaf_.empty()) {
+    patches_of_leaf_.resize(tree_.leaves().size(), {0, 0});
+    for (std::uint32_t p = 0; p < contour_.patches.size(); ++p) {
+      auto& [first, count] = patches_of_leaf_[contour_.patches[p].leaf];
+      if (count++ == 0) first = p;
+    }
+  }
+  patches_of_leaf_.resize(tree_.leaves().size(), {0, 0});
+  touched_.resize(tree_.leaves().size());
 }
 
 bool ContourRefiner::split(std::vector<std::uint32_t> leaves, const RunOptions& run) {
@@ -61,8 +89,7 @@ void ContourRefiner::retire(std::uint32_t leaf) {
 // The edges around leaves that were cut are gone; what comes in their place are edges of the new leaves, and edges of old ones
 // that now lie beside new leaves. Leaves that any of these touch are traced again.
 std::vector<std::uint32_t> ContourRefiner::update(const std::vector<std::uint32_t>& cut, std::size_t first_new) {
-  patches_of_leaf_.resize(tree_.leaves().size(), {0, 0});
-  touched_.resize(tree_.leaves().size());
+  resize_by_leaf();
   const std::size_t first_added = contour_.edges.size();
   std::vector<MinimalEdge> added = take_away(cut);
   const std::vector<MinimalEdge> of_new = edges_of_new(first_new);
@@ -230,10 +257,23 @@ void ContourRefiner::replace_patches(const LeafEdges& around, const LeafCycles& 
 }
 
 std::size_t ContourRefiner::relinked_faces() const {
-  return static_cast<std::size_t>(std::count_if(relinked_.begin(), relinked_.end(), [&](const auto& face) {
-    return std::all_of(face.second.begin(), face.second.end(),
-                       [&](const auto& line) { return contour_.edge_alive[line[0]] && contour_.edge_alive[line[1]]; });
-  }));
+  return static_cast<std::size_t>(std::count_if(relinked_.begin(), relinked_.end(), [&](const auto& face) { return is_alive(face.second); }));
+}
+
+bool ContourRefiner::is_alive(const std::vector<std::array<std::uint32_t, 2>>& lines) const {
+  return std::all_of(lines.begin(), lines.end(),
+                     [&](const auto& line) { return contour_.edge_alive[line[0]] && contour_.edge_alive[line[1]]; });
+}
+
+void ContourRefiner::compact(const Living& living) {
+  patches_of_leaf_ = {};
+  touched_ = Marks();
+  place_in_list_ = new_patches_ = {};
+  const std::vector<std::uint32_t> edge_now = numbers_among(living.edges, contour_.edges.size());
+  std::erase_if(relinked_, [&](const auto& face) { return !is_alive(face.second); });
+  for (auto& [leaves, lines] : relinked_)
+    for (auto& line : lines) line = {edge_now[line[0]], edge_now[line[1]]};
+  cambium::compact(contour_, living);
 }
 
 bool ContourRefiner::place(const RunOptions& run) {

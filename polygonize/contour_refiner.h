@@ -18,17 +18,21 @@ class ContourRefiner {
   bool split(std::vector<std::uint32_t> leaves, const RunOptions& run);
   /// Crossings and vertices of what is new since the last call.
   bool place(const RunOptions& run);
+  /// What became leaves where the octree's tubes run no longer.
+  bool fill(const RunOptions& run);
+  /// Lets go of what is dead, and renumbers the rest in order. living: of this contour. Only once all is placed.
+  void compact(const Living& living);
 
   const SurfaceOctree& tree() const { return tree_; }
-  SurfaceOctree take_tree() && { return std::move(tree_); }
   const Contour& contour() const { return contour_; }
-  Contour take_contour() && { return std::move(contour_); }
   const std::vector<std::uint32_t>& new_patches() const { return new_patches_; }   ///< of the last place(), ascending
   /// Faces that join their inside corners so that no two patches are joined twice.
   std::size_t relinked_faces() const;
 
  private:
   ContourRefiner(SurfaceOctree tree, const SurfaceCover& cover) : tree_(std::move(tree)), cover_(&cover) {}
+  bool add_leaves(std::size_t first_new, const RunOptions& run);
+  void resize_by_leaf();
   void retire(std::uint32_t leaf);
   std::vector<std::uint32_t> update(const std::vector<std::uint32_t>& cut, std::size_t first_new);
   std::vector<MinimalEdge> take_away(const std::vector<std::uint32_t>& cut);
@@ -37,6 +41,7 @@ class ContourRefiner {
   LeafEdges around_of(std::vector<std::uint32_t> leaves, std::size_t first_added);
   std::vector<std::uint32_t> trace(std::size_t first_added);
   void replace_patches(const LeafEdges& around, const LeafCycles& cycles);
+  bool is_alive(const std::vector<std::array<std::uint32_t, 2>>& lines) const;
 
   SurfaceOctree tree_;
   const SurfaceCover* cover_;

@@ -94,98 +94,99 @@ std::vector<std::uint32_t> leaves_to_refine(const ContourRefiner& refiner, const
   return found;
 }
 
-/// An octree fine enough, and what was contoured on it.
-struct Contoured {
-  SurfaceOctree tree;
-  Contour contour;
-  std::vector<Vec3> positions;
-  std::vector<std::optional<Split>> splits;
+/// A contour that is being refined, and how well its polygons fit.
+struct Contouring {
+  ContourRefiner refiner;
+  VertexBalance balance;
+
+  std::optional<DualMesh> polygons(const SurfaceCover& cover, const Plan& plan, const RunOptions& run) const {
+    return build_polygons(refiner.tree(), cover, refiner.contour(), balance.positions(), balance.splits(), plan.tolerance, run);
+  }
 };
 
-// Contours, measures, and cuts the leaves of polygons that are off, until none is.
-std::optional<Contoured> contour_field(const SurfaceCover& cover, const Plan& plan, const TubeRuns& tubes, PolygonizeReport& report,
-                                       const RunOptions& run) {
-  ProgressMeter progress(run, "contouring");
+std::optional<Contouring> begin_contouring(const SurfaceCover& cover, const Plan& plan, const TubeRuns& tubes, PolygonizeReport& report,
+                                           const RunOptions& run) {
   auto tree = SurfaceOctree::build(cover, plan.finer, plan.leaves, run, &tubes);
   if (!tree) return std::nullopt;
   if (std::isfinite(plan.tolerance) && !show_unseen_surface(*tree, cover, report.unseen, run)) return std::nullopt;
-  progress.add(0.3);
   auto refiner = ContourRefiner::begin(*std::move(tree), cover, run);
   if (!refiner) return std::nullopt;
-  VertexBalance balance(plan.tolerance);
-  for (;; ++report.rounds) {
-    if (!refiner->place(run)) return std::nullopt;
-    if (!balance.update(refiner->tree(), cover, refiner->contour(), refiner->new_patches(), run)) return std::nullopt;
-    progress.add(std::ldexp(0.35, -static_cast<int>(report.rounds)));
+  return Contouring{*std::move(refiner), VertexBalance(plan.tolerance)};
+}
+
+// Measures, and cuts the leaves of polygons that are off, until none is. False if cancelled.
+bool refine(Contouring& contouring, const SurfaceCover& cover, const Plan& plan, PolygonizeReport& report, ProgressMeter& progress,
+            const RunOptions& run) {
+  auto& [refiner, balance] = contouring;
+  for (std::size_t round = 0;; ++round, ++report.rounds) {
+    if (!refiner.place(run)) return false;
+    if (!balance.update(refiner.tree(), cover, refiner.contour(), refiner.new_patches(), run)) return false;
+    progress.add(std::ldexp(0.35, -static_cast<int>(round)));
     std::vector<std::uint32_t> leaves;
-    const double care = report.rounds < kLateRound ? kAim : kLateCare;
-    if (report.rounds < kMostRounds) leaves = leaves_to_refine(*refiner, balance, care * plan.tolerance);
+    const double care = round < kLateRound ? kAim : kLateCare;
+    if (round < kMostRounds) leaves = leaves_to_refine(refiner, balance, care * plan.tolerance);
     if (leaves.empty()) break;
-    if (!refiner->split(std::move(leaves), run)) return std::nullopt;
+    if (!refiner.split(std::move(leaves), run)) return false;
   }
-  report.relinked_faces = refiner->relinked_faces();
-  Contour whole = std::move(*refiner).take_contour();
-  SurfaceOctree made = std::move(*refiner).take_tree();
-  refiner.reset();
-  std::vector<Vec3> positions;
-  std::vector<std::optional<Split>> splits;
-  for (std::uint32_t p = 0; p < whole.patches.size(); ++p)
-    if (whole.patches[p].alive()) positions.push_back(balance.positions()[p]);
-  for (std::uint32_t e = 0; e < whole.edges.size(); ++e) {
-    if (!whole.edge_alive[e]) continue;
-    report.largest_error = std::max(report.largest_error, static_cast<double>(balance.error(e)));
-    splits.push_back(balance.splits()[e]);
-  }
-  balance = VertexBalance(plan.tolerance);
-  Contour compact = compacted(std::move(whole));
-  progress.finish();
-  return Contoured{std::move(made), std::move(compact), std::move(positions), std::move(splits)};
+  const Living living = living_part(refiner.contour());
+  balance.keep(living);
+  refiner.compact(living);
+  return true;
+}
+
+double largest_error(const Contouring& contouring) {
+  float largest = 0;
+  for (std::uint32_t e = 0; e < contouring.refiner.contour().edges.size(); ++e) largest = std::max(largest, contouring.balance.error(e));
+  return static_cast<double>(largest);
 }
 
 /// What was contoured, with its mesh, closed by tubes.
 struct Built {
-  Contoured contoured;
+  Contouring contouring;
   DualMesh polygons;
 };
 
-// A run whose ends turn out not to be simple is contoured after all: rare, and so not worth more than to begin again without it.
+// Stretches whose tubes do not fit the mesh at their ends are contoured like all else. They are of one lone chain, whose leaves show all
+// there is.
 std::optional<Built> build_mesh(const SurfaceCover& cover, const Plan& plan, PolygonizeReport& report, const RunOptions& run) {
   auto tubes = plan.tubes ? TubeRuns::find(cover, plan.leaves, *plan.tubes, run) : TubeRuns{};
   if (!tubes) return std::nullopt;
+  ProgressMeter progress(run, "contouring");
+  auto contouring = begin_contouring(cover, plan, *tubes, report, run);
+  if (!contouring) return std::nullopt;
+  progress.add(0.3);
   for (;;) {
-    report = {};
-    auto made = contour_field(cover, plan, *tubes, report, run);
-    if (!made) return std::nullopt;
-    ProgressMeter progress(run, "joining polygons");
-    auto polygons = build_polygons(made->tree, cover, made->contour, made->positions, made->splits, plan.tolerance, run);
+    if (!refine(*contouring, cover, plan, report, progress, run)) return std::nullopt;
+    auto polygons = contouring->polygons(cover, plan, run);
     if (!polygons) return std::nullopt;
-    progress.finish();
-    if (tubes->size() > 0) {
-      const auto added = add_tubes(made->tree, cover, made->contour, *tubes, plan.tolerance, *polygons, run);
-      if (!added) return std::nullopt;
-      report.largest_error = std::max(report.largest_error, added->largest_error);
-      if (!added->failed.empty()) {
-        tubes->remove(added->failed);
-        continue;
-      }
+    const auto added = add_tubes(contouring->refiner.tree(), cover, contouring->refiner.contour(), *tubes, plan.tolerance, *polygons, run);
+    if (!added) return std::nullopt;
+    if (added->failed.empty()) {
+      progress.finish();
+      report.relinked_faces = contouring->refiner.relinked_faces();
+      report.largest_error = std::max(largest_error(*contouring), added->largest_error);
+      return Built{*std::move(contouring), *std::move(polygons)};
     }
-    return Built{*std::move(made), *std::move(polygons)};
+    report.misfit_tubes += added->failed.size();
+    tubes->remove(added->failed);
+    polygons.reset();
+    if (!contouring->refiner.fill(run)) return std::nullopt;
   }
 }
 
-void report_cells(const Contoured& made, PolygonizeReport& report) {
-  const std::vector<Patch>& patches = made.contour.patches;
+void report_cells(const ContourRefiner& made, PolygonizeReport& report) {
+  const std::vector<Patch>& patches = made.contour().patches;
   report.cells = patches.size();
   int finest = kMostLevels, coarsest = 0;
   for (const Patch& patch : patches) {
-    const int level = made.tree.leaves()[patch.leaf].level;
+    const int level = made.tree().leaves()[patch.leaf].level;
     finest = std::min(finest, level), coarsest = std::max(coarsest, level);
   }
   if (!patches.empty()) {
-    report.smallest_cell = std::ldexp(made.tree.grid().cell, finest);
-    report.largest_cell = std::ldexp(made.tree.grid().cell, coarsest);
+    report.smallest_cell = std::ldexp(made.tree().grid().cell, finest);
+    report.largest_cell = std::ldexp(made.tree().grid().cell, coarsest);
   }
-  report.uncertain = entangled_leaves(made.tree, made.contour);
+  report.uncertain = entangled_leaves(made.tree(), made.contour());
 }
 
 std::optional<Polygonized> polygonize_in_arena(const Field& field, const PolygonizeOptions& options, const RunOptions& run) {
@@ -205,10 +206,10 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   result.mesh = std::move(built->polygons.mesh);
   PolygonizeReport& report = result.report;
   if (!options.voxel) report.tolerance = plan.tolerance;
-  report_cells(built->contoured, report);
+  report_cells(built->contouring.refiner, report);
   report.face_vertices = built->polygons.face_vertices;
   report.edge_vertices = built->polygons.edge_vertices;
-  const double thin = std::max(built->contoured.tree.narrow(), report.smallest_cell);   // wider ones are no cracks: their walls count
+  const double thin = std::max(built->contouring.refiner.tree().narrow(), report.smallest_cell);   // wider ones are no cracks: their walls count
   const auto components = drop_small_components(result.mesh, thin, plan.crumb, run);
   if (!components) return std::nullopt;
   report.components = components->components;

@@ -28,6 +28,7 @@ struct PolygonizeReport {
   std::size_t closed_voids = 0;             ///< cavities thinner than the narrowest gap that is resolved, left out
   std::size_t crumbs = 0;                   ///< of wood in cracks, smaller than the tolerance and the thinnest radius, left out
   std::size_t face_vertices = 0, edge_vertices = 0;   ///< added so that no polygons cross
+  std::size_t misfit_tubes = 0;             ///< stretches of branches that were contoured since a tube would not fit the mesh there
   std::size_t relinked_faces = 0;           ///< that join their inside corners so that the mesh is a manifold
   double largest_error = 0;                 ///< of a polygon, metres, where contouring measured it
   /// Where sheets are closer than the smallest cell allowed there, so that the mesh may join what is apart.

@@ -87,6 +87,7 @@ class SurfaceOctree::Sampler {
     const auto tubes = tubes_in(tree, field);
     const auto share = tubes.none() ? TubeRuns::Share::kNone : tubes.share(tree.grid_.box(place, level));
     if (share == TubeRuns::Share::kAll) return {};
+    if (share == TubeRuns::Share::kPart && level <= wanted && tubes.holds(tree.grid_.box(place, level).center())) return {};
     if (share == TubeRuns::Share::kNone || level <= wanted) {
       return cut(tree, field, cell, place, level, std::min(level - wanted, kMostCuts), wanted, true, subtree);
     }
@@ -384,14 +385,9 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
   tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
     if (run.cancelled() || so_far > kMostLeaves) return;
     const PrunedField field = cover.cube_field(i);
-    const double wanted = rule.edge(field.smallest_radius());
-    const int level = cover.level(i) + finer;
-    CellPlace place = cover.place(i);
-    for (std::uint32_t& along : place) along <<= finer;
-    int wanted_level = level;
-    while (wanted_level > 0 && std::ldexp(tree.grid_.cell, wanted_level) > wanted) --wanted_level;
-    subtrees[i].roots.push_back(
-        samplers.local().cut_beside_tubes(tree, field, static_cast<std::uint32_t>(i), place, level, wanted_level, subtrees[i]));
+    const Cube cube = tree.cube_of(i);
+    subtrees[i].roots.push_back(samplers.local().cut_beside_tubes(tree, field, static_cast<std::uint32_t>(i), cube.place, cube.level,
+                                                                  tree.wanted_level(field, cube.level), subtrees[i]));
     so_far += subtrees[i].leaves.size();
   });
   if (run.cancelled()) return std::nullopt;
@@ -403,12 +399,22 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
   return tree;
 }
 
+SurfaceOctree::Cube SurfaceOctree::cube_of(std::size_t cell) const {
+  Cube cube{cover_->place(cell), cover_->level(cell) + finer_};
+  for (std::uint32_t& along : cube.place) along <<= finer_;
+  return cube;
+}
+
+int SurfaceOctree::wanted_level(const PrunedField& field, int level) const {
+  const double wanted = rule_.edge(field.smallest_radius());
+  while (level > 0 && std::ldexp(grid_.cell, level) > wanted) --level;
+  return level;
+}
+
 std::array<std::array<std::uint32_t, 2>, 3> SurfaceOctree::places_of(std::size_t cell) const {
+  const Cube cube = cube_of(cell);
   std::array<std::array<std::uint32_t, 2>, 3> places;
-  for (int a = 0; a < 3; ++a) {
-    const std::uint32_t low = cover_->place(cell)[a] << finer_;
-    places[a] = {low, low + (1u << (cover_->level(cell) + finer_))};
-  }
+  for (int a = 0; a < 3; ++a) places[a] = {cube.place[a], cube.place[a] + (1u << cube.level)};
   return places;
 }
 
@@ -416,9 +422,10 @@ std::optional<std::size_t> SurfaceOctree::cell_at(const CellPlace& place) const 
   return cover_->find_place({place[0] >> finer_, place[1] >> finer_, place[2] >> finer_});
 }
 
-SurfaceOctree::Node* SurfaceOctree::slot_of(const CellPlace& place) {
+// The lowest node about a place, or that on level `lowest`.
+SurfaceOctree::Node* SurfaceOctree::slot_of(const CellPlace& place, int lowest) {
   Node* slot = &root_;
-  for (int level = grid_.levels; slot->has_children(); --level) {
+  for (int level = grid_.levels; level > lowest && slot->has_children(); --level) {
     std::uint32_t child = 0;
     for (int a = 0; a < 3; ++a) child |= (place[a] >> (level - 1) & 1u) << a;
     slot = &nodes_[slot->word + child];
@@ -493,6 +500,47 @@ std::vector<std::uint32_t> SurfaceOctree::split(const SurfaceCover& cover, std::
   for (std::size_t i = 0; i < leaves.size(); ++i) places[i] = leaves_[leaves[i]].place;
   adopt(subtrees, [&](std::size_t part, std::size_t i, Node root) { *slot_of(places[part * kLeavesPerTask + i]) = root; });
   return leaves;
+}
+
+void SurfaceOctree::append_voids(Node node, const Cube& cube, std::vector<Cube>& voids) const {
+  if (node.is_void()) voids.push_back(cube);
+  if (!node.has_children()) return;
+  for (int c = 0; c < 8; ++c) {
+    append_voids(child(node, c), {offset(cube.place, c & 1, c >> 1 & 1, c >> 2, cube.level - 1), cube.level - 1}, voids);
+  }
+}
+
+bool SurfaceOctree::fill(const SurfaceCover& cover, const RunOptions& run) {
+  struct Filled {
+    std::vector<Cube> voids;   // of one cell
+    std::vector<CellPlace> places;
+    Subtree subtree;
+  };
+  cover_ = &cover;
+  tbb::enumerable_thread_specific<Sampler> samplers;
+  auto filled = in_chunks<Filled>(cover.size(), kLeavesPerTask, [&](Filled& part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !run.cancelled(); ++i) {
+      const Cube cell = cube_of(i);
+      part.voids.clear();
+      append_voids(*slot_of(cell.place, cell.level), cell, part.voids);
+      if (part.voids.empty()) continue;
+      const PrunedField field = cover.cube_field(i);
+      const int wanted = wanted_level(field, cell.level);
+      for (const Cube& cube : part.voids) {
+        const Node made = samplers.local().cut_beside_tubes(*this, field, static_cast<std::uint32_t>(i), cube.place, cube.level,
+                                                            std::min(wanted, cube.level), part.subtree);
+        if (made.is_void()) continue;
+        part.places.push_back(cube.place);
+        part.subtree.roots.push_back(made);
+      }
+    }
+  });
+  cover_ = nullptr;
+  if (run.cancelled()) return false;
+  std::vector<Subtree> subtrees;
+  for (Filled& part : filled) subtrees.push_back(std::move(part.subtree));
+  adopt(subtrees, [&](std::size_t part, std::size_t i, Node root) { *slot_of(filled[part].places[i]) = root; });
+  return true;
 }
 
 }  // namespace cambium

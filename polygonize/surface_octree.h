@@ -82,6 +82,9 @@ class SurfaceOctree {
   /// Cuts each leaf listed, but for those on level 0, into eight, with neighbours that are larger. Cut leaves' numbers die; the eight get
   /// new ones, from leaves().size() on. Returns those that were cut, ascending; empty if cancelled. Cost: that of the leaves cut.
   std::vector<std::uint32_t> split(const SurfaceCover& cover, std::vector<std::uint32_t> leaves, const RunOptions& run);
+  /// Makes leaves, from leaves().size() on, of what is nothing where tubes run no longer. False if cancelled. Cost: a look at every node,
+  /// and that of the leaves made.
+  bool fill(const SurfaceCover& cover, const RunOptions& run);
 
  private:
   struct Subtree {
@@ -89,11 +92,18 @@ class SurfaceOctree {
     std::vector<OctreeLeaf> leaves;
     std::vector<Node> roots;         // of one or several trees
   };
+  struct Cube {
+    CellPlace place{};               // its low corner, in units
+    int level = 0;
+  };
   class Sampler;
+  Cube cube_of(std::size_t cell) const;                      // of the cover
+  int wanted_level(const PrunedField& field, int level) const;
+  void append_voids(Node node, const Cube& cube, std::vector<Cube>& voids) const;
   std::vector<std::uint32_t> with_larger_neighbours(std::vector<std::uint32_t> leaves) const;
   std::array<std::array<std::uint32_t, 2>, 3> places_of(std::size_t cell) const;   // of the cover, in units: low, high
   std::optional<std::size_t> cell_at(const CellPlace& place) const;
-  Node* slot_of(const CellPlace& place);
+  Node* slot_of(const CellPlace& place, int lowest = 0);
   template <class Place>
   void adopt(std::vector<Subtree>& subtrees, Place&& place);
   Node join(const SurfaceCover& cover, const std::vector<Node>& roots, std::size_t begin, std::size_t end, int level);

@@ -113,6 +113,7 @@ std::vector<Ends> assign_loops(const SurfaceOctree& tree, const SurfaceCover& co
 
 std::optional<TubeReport> add_tubes(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const TubeRuns& runs,
                                     double tolerance, DualMesh& built, const RunOptions& run) {
+  if (runs.size() == 0) return TubeReport{};
   Mesh& mesh = built.mesh;
   std::vector<std::uint8_t> may_be_open(mesh.positions.size(), 0);
   std::fill_n(may_be_open.begin() + static_cast<std::ptrdiff_t>(contour.patches.size()), built.face_vertices, std::uint8_t{1});

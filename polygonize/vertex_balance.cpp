@@ -21,12 +21,13 @@ constexpr double kDoubt = 0.7;
 
 /// How far outside of a polygon's mean plane the surface is where it crosses the polygon's edge, metres. Of a polygon that is folded
 /// flat, the distance to the nearest corner.
-double height_over(const Ring& ring, const std::vector<Vec3>& positions, const Vec3& x) {
+template <class PositionOf>
+double height_over(const Ring& ring, PositionOf&& position_of, const Vec3& x) {
   std::array<Vec3, 4> p;
   Vec3 mean(0.0);
   double nearest = kInfinity;
   for (int k = 0; k < ring.count; ++k) {
-    p[k] = positions[ring.patches[k]] - x;
+    p[k] = position_of(ring.patches[k]) - x;
     mean += p[k];
     nearest = std::min(nearest, glm::length(p[k]));
   }
@@ -107,23 +108,23 @@ std::vector<std::uint32_t> patches_around(const Contour& contour, const std::vec
 
 bool VertexBalance::update(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
                            const std::vector<std::uint32_t>& new_patches, const RunOptions& run) {
-  on_surface_.resize(contour.patches.size());
   positions_.resize(contour.patches.size());
   heights_.resize(contour.edges.size());
   errors_.resize(contour.edges.size());
   splits_.resize(contour.edges.size());
-  for_each(new_patches, [&](std::uint32_t p) {
-    on_surface_[p] = is_crowded(contour, p) ? crowded_position(tree, contour, p) : contour.vertices[p].position;
-  });
-  const auto height = [&](std::uint32_t e, const std::vector<Vec3>& positions) {
+  const auto on_surface = [&](std::uint32_t p) {
+    return is_crowded(contour, p) ? crowded_position(tree, contour, p) : contour.vertices[p].position;
+  };
+  const auto moved = [&](std::uint32_t p) { return positions_[p]; };
+  const auto height = [&](std::uint32_t e, const auto& position_of) {
     return static_cast<float>(
-        height_over(ring_of(contour.edges[e], contour.patch_of_quadrant[e]), positions, crossing_point(tree, contour, e)));
+        height_over(ring_of(contour.edges[e], contour.patch_of_quadrant[e]), position_of, crossing_point(tree, contour, e)));
   };
   const std::vector<std::uint32_t> edges = edges_of(contour, new_patches);
-  for_each(edges, [&](std::uint32_t e) { heights_[e] = height(e, on_surface_); });
+  for_each(edges, [&](std::uint32_t e) { heights_[e] = height(e, on_surface); });
   const std::vector<std::uint32_t> patches = patches_around(contour, edges);
   for_each(patches, [&](std::uint32_t p) {
-    positions_[p] = on_surface_[p];
+    positions_[p] = on_surface(p);
     if (contour.vertices[p].crease || is_crowded(contour, p)) return;
     double sum = 0;
     for (const std::uint32_t e : contour.ring(p)) {
@@ -133,7 +134,7 @@ bool VertexBalance::update(const SurfaceOctree& tree, const SurfaceCover& cover,
     const OctreeLeaf& leaf = tree.leaves()[contour.patches[p].leaf];
     const Box box = tree.box(leaf);
     const double margin = kVertexMargin * tree.edge(leaf);
-    positions_[p] = glm::clamp(on_surface_[p] + outwards * Vec3(contour.vertices[p].normal), box.lo + margin, box.hi - margin);
+    positions_[p] = glm::clamp(positions_[p] + outwards * Vec3(contour.vertices[p].normal), box.lo + margin, box.hi - margin);
   });
   changed_edges_ = edges_of(contour, patches);
   // On a saddle the middle of a polygon may be on the surface while its sides are off on either hand.
@@ -145,7 +146,7 @@ bool VertexBalance::update(const SurfaceOctree& tree, const SurfaceCover& cover,
     const auto& v = ring.patches;
     const PolygonFit fit = polygon_fit(ring, positions_, crossing_point(tree, contour, e), contour.edges[e].axis);
     // Of a polygon that its edge misses only the plane is known, and it may be off by a part of its size more.
-    float error = std::abs(height(e, positions_)) + 0.1f * static_cast<float>(glm::length(positions_[v[0]] - positions_[v[2 % ring.count]]));
+    float error = std::abs(height(e, moved)) + 0.1f * static_cast<float>(glm::length(positions_[v[0]] - positions_[v[2 % ring.count]]));
     if (ring.count == 4) {
       error = std::min({error, std::max(static_cast<float>(fit.error[0]), off_between(v[0], v[2])),
                         std::max(static_cast<float>(fit.error[1]), off_between(v[1], v[3]))});
@@ -156,6 +157,14 @@ bool VertexBalance::update(const SurfaceOctree& tree, const SurfaceCover& cover,
     errors_[e] = error;
   });
   return measure(tree, cover, contour, run);
+}
+
+void VertexBalance::keep(const Living& living) {
+  keep_listed(positions_, living.patches);
+  keep_listed(heights_, living.edges);
+  keep_listed(errors_, living.edges);
+  keep_listed(splits_, living.edges);
+  changed_edges_ = {};
 }
 
 // Polygons that the surface may leave between the places where it is known are measured as they will be cut: by the diagonal that

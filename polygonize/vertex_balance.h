@@ -19,6 +19,9 @@ class VertexBalance {
   bool update(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const std::vector<std::uint32_t>& new_patches,
               const RunOptions& run);
 
+  /// Forgets all others, and renumbers these, as a contour does that is compacted.
+  void keep(const Living& living);
+
   /// By patch: strictly inside its leaf; of several in one leaf each is in the middle of its crossings.
   const std::vector<Vec3>& positions() const { return positions_; }
   /// By edge: of the polygon from the surface, metres: where the surface crosses the edge, along its sides and the better of its
@@ -33,7 +36,7 @@ class VertexBalance {
   bool measure(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const RunOptions& run);
 
   double tolerance_;
-  std::vector<Vec3> on_surface_, positions_;
+  std::vector<Vec3> positions_;
   std::vector<float> heights_, errors_;   // of the surface over the polygon, before and after
   std::vector<std::optional<Split>> splits_;
   std::vector<std::uint32_t> changed_edges_;

@@ -1,6 +1,7 @@
 #include "polygonize/contour_refiner.h"
 
 #include "polygonize/polygon_ring.h"
+#include "polygonize/tube_runs.h"
 #include "tests/polygonize/mesh_checks.h"
 #include "tests/polygonize/octrees.h"
 #include "tests/polygonize/sample_fields.h"
@@ -29,6 +30,7 @@ EdgeKey key_of(const SurfaceOctree& tree, const MinimalEdge& edge) {
 struct Described {
   std::map<EdgeKey, float> crossings;
   std::map<std::pair<CellPlace, std::set<EdgeKey>>, std::tuple<std::array<double, 3>, bool>> patches;
+  bool operator==(const Described&) const = default;
 };
 
 Described described(const SurfaceOctree& tree, const Contour& contour) {
@@ -68,11 +70,12 @@ TEST(ContourRefiner, KeepsWhatBeginningAnewWouldFind) {
       }
     }
     EXPECT_TRUE(crossed_minimal_edges(refiner.tree(), {})->to_split.empty());
-    const Contour kept = compacted(Contour(refiner.contour()));
+    refiner.compact(living_part(refiner.contour()));
     ContourRefiner fresh = ContourRefiner::begin(refiner.tree(), on.cover, {}).value();
     ASSERT_EQ(fresh.tree().leaves().size(), refiner.tree().leaves().size()) << "something had to be cut";
     ASSERT_TRUE(fresh.place({}));
-    const Described now = described(refiner.tree(), kept), anew = described(fresh.tree(), compacted(Contour(fresh.contour())));
+    fresh.compact(living_part(fresh.contour()));
+    const Described now = described(refiner.tree(), refiner.contour()), anew = described(fresh.tree(), fresh.contour());
     ASSERT_EQ(now.crossings.size(), anew.crossings.size());
     for (auto a = now.crossings.begin(), b = anew.crossings.begin(); a != now.crossings.end(); ++a, ++b) {
       ASSERT_EQ(a->first, b->first);
@@ -103,7 +106,9 @@ TEST(ContourRefiner, StaysAManifoldFromRoundToRoundWhateverTheSignsAre) {
         ASSERT_TRUE(refiner.split(some_leaves(refiner.tree(), draws, 0.03), {}));
       }
       ASSERT_TRUE(refiner.place({}));
-      const Contour contour = compacted(Contour(refiner.contour()));
+      if (round % 2 == 1) refiner.compact(living_part(refiner.contour()));   // and goes on from there
+      Contour contour = refiner.contour();
+      compact(contour, living_part(contour));
       Mesh mesh;
       for (std::uint32_t i = 0; i < contour.edges.size(); ++i) {
         const Ring ring = ring_of(contour.edges[i], contour.patch_of_quadrant[i]);
@@ -116,6 +121,43 @@ TEST(ContourRefiner, StaysAManifoldFromRoundToRoundWhateverTheSignsAre) {
     }
   }
   EXPECT_GT(relinked, 10u) << "the case this is for";
+}
+
+// A twig with two shoots, whose stretches between are tubes at first.
+TEST(ContourRefiner, FilledWhereTubesRanItIsTheContourWithoutThem) {
+  BlobTreeBuilder b;
+  const Vec3 up = glm::normalize(Vec3(1, 0.3, 1));
+  std::vector<Lateral> shoots;
+  for (const double z : {0.08, 0.22}) {
+    const NodeId shoot = b.add(Chain{{{Vec3(0, 0, z), 0.002}, {Vec3(0, 0, z) + 0.1 * up, 0.002}}});
+    shoots.push_back({shoot, {0, 0, z}, {0, 0, 1}, 0.002, 0.01});
+  }
+  const NodeId twig = b.add(Chain{{{{0, 0, 0}, 0.003}, {{0, 0.01, 0.15}, 0.003}, {{0, 0, 0.3}, 0.003}}});
+  const Field field(b.build(b.add(Fork{twig, shoots, 0.5, 1})));
+  const LeafRule rule{.radii = 1.1};
+  CoverOptions options;
+  options.unit = rule.edge(0.002) / 2;
+  options.cell_radii = 3.2;
+  const SurfaceCover cover = cover_surface(field, options, {}).value();
+  const auto begun = [&](const TubeRuns& runs) {
+    ContourRefiner refiner = ContourRefiner::begin(SurfaceOctree::build(cover, 0, rule, {}, &runs).value(), cover, {}).value();
+    refiner.place({});
+    refiner.compact(living_part(refiner.contour()));
+    return refiner;
+  };
+  for (const std::vector<std::uint32_t>& misfits : {std::vector<std::uint32_t>{0, 1, 2, 3, 4}, {1}, {0, 3}}) {
+    TubeRuns runs = TubeRuns::find(cover, rule, {.tolerance = 0.0005}, {}).value();
+    ASSERT_EQ(runs.size(), 5u);
+    ContourRefiner refiner = begun(runs);
+    const std::size_t before = refiner.contour().edges.size();
+    runs.remove(misfits);
+    ASSERT_TRUE(refiner.fill({}));
+    ASSERT_TRUE(refiner.place({}));
+    refiner.compact(living_part(refiner.contour()));
+    EXPECT_GT(refiner.contour().edges.size(), before + 100 * misfits.size());
+    const ContourRefiner fresh = begun(runs);
+    EXPECT_TRUE(described(refiner.tree(), refiner.contour()) == described(fresh.tree(), fresh.contour()));
+  }
 }
 
 TEST(ContourRefiner, StopsWhenCancelled) {

@@ -74,7 +74,8 @@ inline Contour contour_on(OnOctree& on, std::size_t* relinked_faces = nullptr) {
   refiner.place({});
   on.tree = refiner.tree();
   if (relinked_faces) *relinked_faces += refiner.relinked_faces();
-  return compacted(Contour(refiner.contour()));
+  refiner.compact(living_part(refiner.contour()));
+  return refiner.contour();
 }
 
 inline std::vector<Vec3> positions_of(const Contour& contour) {
