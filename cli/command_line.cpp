@@ -22,6 +22,8 @@ void add_common(CLI::App& app, CommandLine& line) {
   app.add_option("--threads", line.threads, "threads to use; 0: all")->check(CLI::Range(0, 4096));
   app.add_option("--seed", line.seed, "overrides the input's")->check(CLI::NonNegativeNumber);
   app.add_option("--lsystem", line.label, "which L-system of the file, by its label; else the first");
+  app.add_option("--max-modules", line.max_modules, "an L-system's string may have so many; 100000000 by default")
+      ->check(CLI::Range(1.0, 4e9));
   app.add_flag("--quiet", line.quiet, "print errors only");
   app.add_flag("--json", line.json, "one object of figures on stdout");
   app.add_option("--set", line.overrides, "key=value: overrides a recipe key, such as surface.lip=2 or prune.0.branch=3")
@@ -43,7 +45,11 @@ CLI::App* add_command(CLI::App& app, CommandLine& line, Command command, const c
 void declare(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.set_version_flag("--version", kVersion);
-  add_command(app, line, Command::kDerive, "derive", "the derived string of an L-system", false);
+  CLI::App* derive = add_command(app, line, Command::kDerive, "derive", "the derived string of an L-system", false);
+  derive->add_option("--step", line.step, "derive only so many steps")->check(CLI::NonNegativeNumber);
+  derive->add_flag("--explain", line.explain,
+                   "instead of the string the last step: a line for each module before it, with the rule (file:line:column) and "
+                   "what it made");
   add_command(app, line, Command::kGrow, "grow", "the skeleton only (.skel.json .swc)", true);
   add_command(app, line, Command::kSurface, "surface", "the BlobTree that it becomes (.blob.json)", true);
   CLI::App* eval = add_command(app, line, Command::kEval, "eval", "field and gradient at points (.csv)", true);

@@ -19,6 +19,9 @@ struct CommandLine {
   int threads = 0;
   std::optional<std::uint64_t> seed;
   std::optional<std::string> label;          ///< of --lsystem
+  std::optional<std::size_t> max_modules;
+  std::optional<int> step;                   ///< derive
+  bool explain = false;                      ///< derive
   bool quiet = false, json = false;
   std::vector<std::string> overrides;        ///< of --set
   std::string points;                        ///< eval

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "blobtree/blobtree_json.h"
 #include "cli/commands.h"
@@ -26,6 +27,24 @@ void report_string(Job& job, const ModuleString& string, const LSystem& system) 
   job.figures.set("skipped_symbols", turtled.skipped);
 }
 
+struct Derived {
+  ModuleString string;
+  std::string explanation;   ///< empty unless --explain asks for it
+};
+
+std::optional<Derived> derive_text(Job& job, const LSystem& system) {
+  if (!job.line.explain) {
+    auto string = derive_string(job, system);
+    if (!string) return std::nullopt;
+    return Derived{std::move(*string), {}};
+  }
+  const StageTimer timer(job.figures, "derive");
+  auto step = explain_step(system, derive_options(job), job.run);
+  if (!step) return std::nullopt;
+  std::string text = to_text(*step);
+  return Derived{std::move(step->after), std::move(text)};
+}
+
 }  // namespace
 
 Outcome run_derive(Job& job) {
@@ -34,17 +53,17 @@ Outcome run_derive(Job& job) {
   std::optional<OutputFile> output;
   if (!job.line.output.empty()) output.emplace(job.line.output);
   const LSystem system = LSystem::load(job.source, job.recipe.skeleton.label);
-  const auto string = derive_string(job, system);
-  if (!string) return Outcome::kInterrupted;
+  const auto derived = derive_text(job, system);
+  if (!derived) return Outcome::kInterrupted;
   if (output || !job.line.json) {
     const StageTimer timer(job.figures, "write");
-    const std::string text = to_text(*string) + "\n";
+    const std::string text = derived->explanation.empty() ? to_text(derived->string) + "\n" : derived->explanation;
     if (output)
       write_text(output->temporary(), text);
     else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
       throw std::runtime_error("stdout cannot be written");
   }
-  if (output || job.line.json) report_string(job, *string, system);
+  if (output || job.line.json) report_string(job, derived->string, system);
   if (job.run.cancelled()) return Outcome::kInterrupted;
   if (output) output->commit();
   return Outcome::kDone;

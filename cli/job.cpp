@@ -1,5 +1,6 @@
 #include "cli/job.h"
 
+#include <cstdio>
 #include <utility>
 
 #include "blobtree/blobtree_json.h"
@@ -84,12 +85,18 @@ Job::Job(const CommandLine& command_line, const std::atomic<bool>& cancel)
   if (!line.output.empty()) figures.set("output", line.output);
 }
 
-std::optional<ModuleString> derive_string(Job& job, const LSystem& system) {
-  const StageTimer timer(job.figures, "derive");
+DeriveOptions derive_options(const Job& job) {
   DeriveOptions options;
   options.seed = job.recipe.skeleton.seed;
-  options.steps = job.recipe.skeleton.steps;
-  return derive(system, options, job.run);
+  options.steps = job.line.step ? job.line.step : job.recipe.skeleton.steps;
+  options.max_modules = job.line.max_modules.value_or(options.max_modules);
+  if (!job.line.quiet) options.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); };
+  return options;
+}
+
+std::optional<ModuleString> derive_string(Job& job, const LSystem& system) {
+  const StageTimer timer(job.figures, "derive");
+  return derive(system, derive_options(job), job.run);
 }
 
 std::optional<Skeleton> grow_skeleton(Job& job) {

@@ -271,7 +271,7 @@ Turtled interpret(const ModuleString& string, const LSystem& system, const Turtl
   const auto has_homomorphism = [](const System& one) { return !one.homomorphism.empty(); };
   if (std::none_of(program.systems.begin(), program.systems.end(), has_homomorphism)) return Interpreter(string, file, options).run();
   ModuleString drawn;
-  RewritingPass pass(program, DeriveOptions{}.max_modules, {});
+  RewritingPass pass(program, options.max_modules, {});
   pass.seed = program.main().homomorphism_seed.value_or(string.seed);
   if (string.variables.size() == pass.variables.size()) pass.variables = string.variables;
   pass.rewrite(string, Stage::kHomomorphism, drawn);

@@ -92,6 +92,13 @@ std::optional<ExplainedStep> explain_step(const LSystem& system, const DeriveOpt
 
 /// cpfg notation, parameters as %.9g.
 std::string to_text(const ModuleString& string);
+/// Of modules [begin, end).
+std::string to_text(const ModuleString& string, std::size_t begin, std::size_t end);
+
+/// A line for each run of modules that one rule made of one module: the rule's `file:line:column` (`stays`: none matched), what it
+/// was applied to, and what it made, between tabs. A module of which nothing is left has a line with `-` and `*`; so have the
+/// further modules of a predecessor of several.
+std::string to_text(const ExplainedStep& step);
 
 struct TurtleOptions {
   double step = 1;                         ///< metres of an F without parameter
@@ -101,6 +108,7 @@ struct TurtleOptions {
   double width_factor = 0.70710678118654752;  ///< of a `!` without parameter; `#` divides by it. Default: halves the area
   Vec3 tropism{0, 0, -1};
   double elasticity = 0;
+  std::size_t max_modules = 100'000'000;   ///< of the string that the homomorphism makes
 };
 
 struct Turtled {

@@ -106,6 +106,7 @@ class Parser {
       system_->ring = true;
       return true;
     }
+    if ((keyword == "derivation length" || keyword == "maximum depth") && cursor_.peek() != ':') cursor_.fail("':' after '" + keyword + "'");
     if (is_keyword(keyword.substr(0, keyword.find(' '))) && cursor_.peek() == ':' && keyed(keyword, begin)) return true;
     cursor_.seek(begin);
     add(ModuleParser(cursor_, *program_, scope_).production());

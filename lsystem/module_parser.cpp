@@ -223,6 +223,7 @@ ModuleParser::Predecessors ModuleParser::predecessors(Scope& scope) {
     cursor_.skip_space();
     if (cursor_.at_line_end()) go_to_arrow_line();
     if (at_arrow() || cursor_.peek() == ':') break;
+    if (cursor_.looking_at("->")) cursor_.fail_at(cursor_.position(), "'->'", "'-->'");
     if (cursor_.peek() == '<') {
       left_part(parts);
     } else if (cursor_.peek() == '>') {
@@ -283,7 +284,7 @@ Production ModuleParser::production() {
   {
     const Cursor::LineEnds inside(cursor_, true);
     if (cursor_.accept(':')) condition(out, scope);
-    if (!at_arrow()) cursor_.fail("'-->'");
+    if (!at_arrow()) cursor_.fail(cursor_.peek() == '=' ? "'==' or '-->'" : "'-->'");
     cursor_.advance(3);
   }
   out.successor = successor(scope);

@@ -223,12 +223,13 @@ class Preprocessor {
       source.append(name.empty() ? expanded[i].c : '0', expanded[i].place);
       i += std::max<std::size_t>(name.size(), 1);
     }
+    source.append('\n', {source.end.line, source.end.column + 1, source.end.file});
     Cursor cursor(source);
     Scope scope;
     Code code;
     ExpressionCompiler(cursor, scope, code).expression();
     cursor.skip_space();
-    if (!cursor.at_end()) cursor.fail("the end of the condition");
+    if (!cursor.at_line_end()) cursor.fail("the end of the condition");
     CodeTables tables;
     tables.files = files_;
     return constant_value(code, tables) != 0.0;

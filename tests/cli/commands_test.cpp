@@ -57,6 +57,20 @@ TEST_F(Commands, DerivePrintsTheStringWithoutOutput) {
   EXPECT_EQ(ran.err, "");
 }
 
+TEST_F(Commands, DeriveStopsAtAStepAndExplainsIt) {
+  folder_.write("grow.l", "lsystem: 1\nderivation length: 9\nStart: {n = 3; printf(\"n is %g\\n\", n);}\naxiom: A(0)\n"
+                          "A(x) --> F(x)A(x+1)\nendlsystem\n");
+  const std::string input = at("grow.l");
+  EXPECT_EQ(run_program({"derive", input, "--step", "2"}).out, "F(0)F(1)A(2)\n");
+  EXPECT_EQ(run_program({"derive", input, "--step", "2"}).err, "n is 3\n");
+  EXPECT_EQ(run_program({"derive", input, "--step", "2", "--explain", "--quiet"}).out,
+            "stays\tF(0)\tF(0)\n" + input + ":5:1\tA(1)\tF(1)A(2)\n");
+  EXPECT_EQ(run_program({"derive", input, "--step", "0", "--explain", "--quiet"}).status, 2);
+  const Ran limited = run_program({"derive", input, "--max-modules", "5", "--quiet"});
+  EXPECT_EQ(limited.status, 2);
+  EXPECT_NE(limited.err.find(input + ":5:1: found a string of more than 5 modules"), std::string::npos) << limited.err;
+}
+
 TEST_F(Commands, DeriveRunsTheLSystemThatIsNamed) {
   folder_.write("two.l",
                 "lsystem: first\nderivation length: 0\naxiom: A\nendlsystem\nlsystem: second\nderivation length: 0\naxiom: B\nendlsystem\n");

@@ -1,0 +1,67 @@
+// libFuzzer's entry: any bytes as an L-system, parsed, derived, explained and drawn. What it throws but an InputError is a finding.
+// Also part of the tests, which replay corpus/.
+#include "lsystem/lsystem.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <thread>
+
+namespace cambium {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Cancels what takes longer than a fraction of a second, so that a slow input costs little and one that cannot be cancelled is found.
+class Deadline {
+ public:
+  Deadline() {
+    std::thread([this] {
+      while (true) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (Clock::now().time_since_epoch().count() > until_) passed_ = true;
+      }
+    }).detach();
+  }
+  const std::atomic<bool>* begin() {
+    until_ = (Clock::now() + std::chrono::milliseconds(200)).time_since_epoch().count();
+    passed_ = false;
+    return &passed_;
+  }
+
+ private:
+  std::atomic<Clock::rep> until_{0};
+  std::atomic<bool> passed_{false};
+};
+
+void derive_and_draw(std::string_view text) {
+  static Deadline& deadline = *new Deadline;   // outlives main, as its thread does
+  // A folder that is not there: nothing is included, and no curves are found.
+  const LSystem system = LSystem::parse(text, "/nonexistent/fuzzed.l");
+  DeriveOptions options;
+  options.steps = 4;
+  options.max_modules = 3000;
+  options.print = [](std::string_view) {};
+  RunOptions run;
+  run.threads = 1;
+  run.cancel = deadline.begin();
+  const auto string = derive(system, options, run);
+  if (!string) return;
+  if (const auto step = explain_step(system, options, run)) to_text(*step);
+  TurtleOptions turtle;
+  turtle.max_modules = 3000;
+  if (!run.cancelled()) interpret(*string, system, turtle);
+}
+
+}  // namespace
+}  // namespace cambium
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    cambium::derive_and_draw({reinterpret_cast<const char*>(data), size});
+  } catch (const cambium::InputError&) {
+  }
+  return 0;
+}
