@@ -13,6 +13,8 @@ void node_section(Report& report, const Pace& pace);
 void poplar_section(Report& report, const Pace& pace);
 /// Building, memory, pruning and covers over the size and shape of generated trees.
 void trees_section(Report& report, const Pace& pace);
+/// Derivation of strings of ten million modules.
+void lsystem_section(Report& report, const Pace& pace);
 /// Our mesher against OpenVDB's at equal error. Takes minutes, and some gigabytes for OpenVDB's.
 void mesher_section(Report& report, const Pace& pace);
 /// Rays at the field against Embree's own curves. Takes half a minute.
