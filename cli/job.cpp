@@ -89,6 +89,7 @@ DeriveOptions derive_options(const Job& job) {
   DeriveOptions options;
   options.seed = job.recipe.skeleton.seed;
   options.steps = job.line.step ? job.line.step : job.recipe.skeleton.steps;
+  options.turtle = job.recipe.skeleton.turtle;
   options.max_modules = job.line.max_modules.value_or(options.max_modules);
   if (!job.line.quiet) options.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); };
   return options;

@@ -14,12 +14,14 @@ namespace {
 class Derivation {
  public:
   Derivation(const LSystem& system, const DeriveOptions& options, const RunOptions& run)
-      : program_(system.program()), run_(run), pass_(program_, options.max_modules, run, &options.print) {
+      : system_(system), options_(options), program_(system.program()), run_(run), pass_(program_, options.max_modules, run, &options.print) {
     steps_ = options.steps.value_or(program_.main().derivation_length);
     if (steps_ < 0)
       throw InputError(located(program_.tables.files, program_.main().place), "an L-system without a derivation length",
                        "'derivation length:', or a number of steps of 0 or more");
     pass_.seed = options.seed.value_or(program_.main().seed);
+    const auto& names = program_.symbols.names();
+    asks_ = std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.size() == 2 && name[0] == '?'; });
   }
 
   int steps() const { return steps_; }
@@ -57,12 +59,24 @@ class Derivation {
   }
 
   ModuleString end() {
+    answer();
     pass_.run_block(&System::end, 1);
     return named(std::move(modules_));
   }
 
  private:
-  void begin_step() { pass_.run_block(&System::start_each, 2 + 2 * ++step_); }
+  void begin_step() {
+    answer();
+    pass_.run_block(&System::start_each, 2 + 2 * ++step_);
+  }
+
+  // As cpfg, which draws every string and so answers what it asks.
+  void answer() {
+    if (!asks_) return;
+    ModuleString string = named(std::move(modules_));
+    answer_queries(string, system_, options_.turtle);
+    modules_ = std::move(static_cast<Modules&>(string));
+  }
 
   bool end_step() {
     pass_.run_block(&System::end_each, 3 + 2 * step_);
@@ -75,9 +89,12 @@ class Derivation {
     return true;
   }
 
+  const LSystem& system_;
+  const DeriveOptions& options_;
   const LSystemProgram& program_;
   const RunOptions& run_;
   RewritingPass pass_;
+  bool asks_ = false;          // there may be queries
   int steps_ = 0;
   std::uint64_t step_ = 0;
   Modules modules_, next_;

@@ -24,7 +24,8 @@ constexpr int kTurnsBetweenRepairs = 64;
 
 enum class Action {
   kSkip, kSilent, kDraw, kMove, kYawLeft, kYawRight, kPitchDown, kPitchUp, kRollLeft, kRollRight, kTurnBack, kLevel,
-  kOpen, kClose, kPolygonOpen, kPolygonClose, kThinner, kThicker, kCut, kPlace, kOrient, kElasticity, kTropism, kCall
+  kOpen, kClose, kPolygonOpen, kPolygonClose, kThinner, kThicker, kCut, kPlace, kOrient, kElasticity, kTropism, kCall,
+  kAskPosition, kAskHeading, kAskUp, kAskLeft
 };
 
 Action action_of(std::string_view name) {
@@ -35,7 +36,8 @@ Action action_of(std::string_view name) {
       {"@v", Action::kLevel},     {"[", Action::kOpen},         {"]", Action::kClose},         {"{", Action::kPolygonOpen},
       {"}", Action::kPolygonClose}, {".", Action::kSilent},     {"!", Action::kThinner},       {"#", Action::kThicker},
       {"%", Action::kCut},        {"@M", Action::kPlace},       {"@R", Action::kOrient},       {"@Ts", Action::kElasticity},
-      {"@T", Action::kElasticity}, {"@Td", Action::kTropism},   {"?", Action::kCall}};
+      {"@T", Action::kElasticity}, {"@Td", Action::kTropism},   {"?", Action::kCall},
+      {"?P", Action::kAskPosition}, {"?H", Action::kAskHeading}, {"?U", Action::kAskUp},      {"?L", Action::kAskLeft}};
   const auto found = kActions.find(name);
   return found == kActions.end() ? Action::kSkip : found->second;
 }
@@ -58,10 +60,13 @@ struct State {
   bool lateral = false;        // the next internode is the first behind a bracket
 };
 
+// What the turtle says at queries, by the keys of their modules.
+using Answers = std::unordered_map<std::uint64_t, Vec3>;
+
 class Interpreter {
  public:
-  Interpreter(const ModuleString& string, const std::string& file, const TurtleOptions& options)
-      : string_(string), file_(file), options_(options), angle_(options.angle != 0 ? options.angle : std::numbers::pi / 2) {
+  Interpreter(const ModuleString& string, const std::string& file, const TurtleOptions& options, Answers* answers)
+      : string_(string), file_(file), options_(options), answers_(answers), angle_(options.angle != 0 ? options.angle : std::numbers::pi / 2) {
     for (const std::string& name : string.names) actions_.push_back(action_of(name));
     skipped_.assign(string.names.size(), 0);
     state_.width = options.width;
@@ -105,6 +110,10 @@ class Interpreter {
       case Action::kTurnBack: return state_.frame.turn_back();
       case Action::kLevel: return level_or_return();
       case Action::kCall: return call();
+      case Action::kAskPosition: return answer(state_.position);
+      case Action::kAskHeading: return answer(state_.frame.heading);
+      case Action::kAskUp: return answer(state_.frame.up);
+      case Action::kAskLeft: return answer(state_.frame.left);
       case Action::kOpen:
         stack_.emplace_back(state_, polygon_);
         state_.lateral = true;
@@ -144,6 +153,11 @@ class Interpreter {
     if (++state_.turns < kTurnsBetweenRepairs) return;
     state_.turns = 0;
     state_.frame.restore_orthonormality();
+  }
+
+  void answer(const Vec3& value) {
+    if (!answers_ || count() != 3) return skip();
+    answers_->emplace(string_.key[index_], value);
   }
 
   // `?(label)` and `?(label,scale)` up to their `$` are a sub-L-system's, whose lengths are scaled.
@@ -249,6 +263,7 @@ class Interpreter {
   const ModuleString& string_;
   const std::string file_;
   const TurtleOptions& options_;
+  Answers* const answers_;             // null: nobody asks
   const double angle_;
   std::vector<Action> actions_;        // by symbol
   std::vector<std::size_t> skipped_;   // by symbol
@@ -265,18 +280,39 @@ class Interpreter {
 
 }  // namespace
 
-Turtled interpret(const ModuleString& string, const LSystem& system, const TurtleOptions& options) {
+namespace {
+
+Turtled draw(const ModuleString& string, const LSystem& system, const TurtleOptions& options, Answers* answers) {
   const LSystemProgram& program = system.program();
   const std::string file = program.tables.files.empty() ? std::string() : program.tables.files[0];
   const auto has_homomorphism = [](const System& one) { return !one.homomorphism.empty(); };
-  if (std::none_of(program.systems.begin(), program.systems.end(), has_homomorphism)) return Interpreter(string, file, options).run();
+  if (std::none_of(program.systems.begin(), program.systems.end(), has_homomorphism)) return Interpreter(string, file, options, answers).run();
   ModuleString drawn;
   RewritingPass pass(program, options.max_modules, {});
   pass.seed = program.main().homomorphism_seed.value_or(string.seed);
   if (string.variables.size() == pass.variables.size()) pass.variables = string.variables;
   pass.rewrite(string, Stage::kHomomorphism, drawn);
   drawn.names = program.symbols.names();
-  return Interpreter(drawn, file, options).run();
+  return Interpreter(drawn, file, options, answers).run();
+}
+
+}  // namespace
+
+Turtled interpret(const ModuleString& string, const LSystem& system, const TurtleOptions& options) {
+  return draw(string, system, options, nullptr);
+}
+
+// What no rule of the homomorphism matches keeps its key.
+void answer_queries(ModuleString& string, const LSystem& system, const TurtleOptions& options) {
+  Answers answers;
+  draw(string, system, options, &answers);
+  for (std::size_t i = 0; i < string.size(); ++i) {
+    if (string.names[string.symbol[i]][0] != '?' || string.arity(i) != 3) continue;
+    const auto found = answers.find(string.key[i]);
+    if (found == answers.end()) continue;
+    for (glm::length_t axis = 0; axis < 3; ++axis)
+      string.parameters[string.first[i] + static_cast<std::size_t>(axis)] = found->second[axis];
+  }
 }
 
 }  // namespace cambium

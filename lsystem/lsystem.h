@@ -34,10 +34,22 @@ class LSystem {
   std::shared_ptr<const LSystemProgram> program_;
 };
 
+struct TurtleOptions {
+  double step = 1;                         ///< metres of an F without parameter
+  double angle = 0;                        ///< radians of + - & ^ \ / without parameter; 0: 90 degrees
+  double width = 0.1;                      ///< diameter before the first ! or #, in width units
+  double width_unit = 1;                   ///< metres; ABOP's figures give widths in pixels beside lengths in metres, say
+  double width_factor = 0.70710678118654752;  ///< of a `!` without parameter; `#` divides by it. Default: halves the area
+  Vec3 tropism{0, 0, -1};
+  double elasticity = 0;
+  std::size_t max_modules = 100'000'000;   ///< of the string that the homomorphism makes
+};
+
 struct DeriveOptions {
   std::optional<std::uint64_t> seed;       ///< overrides the file's
   std::optional<int> steps;                ///< overrides the file's derivation length
-  std::size_t max_modules = 100'000'000;   ///< at most 4'000'000'000
+  std::size_t max_modules = 100'000'000;   ///< at most 4'000'000'000; there may be 8 parameters for each
+  TurtleOptions turtle;                    ///< that answers queries
   /// Gets what the model's printf writes, from the calling thread; unset: it is dropped.
   std::function<void(std::string_view)> print;
 };
@@ -63,7 +75,8 @@ struct ModuleString : Modules {
 
 /// Rewrites the axiom in parallel steps. What a step's productions make is decomposed at once, depth first, contexts being those
 /// of the string before the step. `*` deletes a module; a module that no production matches stays; a module `%` goes with all that
-/// follows it in its branch. Between `?(n)` and `$` the L-system labelled n rewrites.
+/// follows it in its branch. Between `?(n)` and `$` the L-system labelled n rewrites. A string with queries is interpreted before
+/// each step and at the end: see answer_queries().
 ///
 /// Stochastic choices and draws are functions of (seed, the module's key): they depend on the module's line of descent alone, so
 /// an edited production changes the draws of what it makes and of nothing else.
@@ -100,17 +113,6 @@ std::string to_text(const ModuleString& string, std::size_t begin, std::size_t e
 /// further modules of a predecessor of several.
 std::string to_text(const ExplainedStep& step);
 
-struct TurtleOptions {
-  double step = 1;                         ///< metres of an F without parameter
-  double angle = 0;                        ///< radians of + - & ^ \ / without parameter; 0: 90 degrees
-  double width = 0.1;                      ///< diameter before the first ! or #, in width units
-  double width_unit = 1;                   ///< metres; ABOP's figures give widths in pixels beside lengths in metres, say
-  double width_factor = 0.70710678118654752;  ///< of a `!` without parameter; `#` divides by it. Default: halves the area
-  Vec3 tropism{0, 0, -1};
-  double elasticity = 0;
-  std::size_t max_modules = 100'000'000;   ///< of the string that the homomorphism makes
-};
-
 struct Turtled {
   Skeleton skeleton;                       ///< one internode per F
   double total_length = 0;                 ///< of F, metres
@@ -128,5 +130,9 @@ struct Turtled {
 /// Errors: InputError (place: the file) for a negative length, a width of 0 or less, a position that is not finite, more nodes
 /// than int32 counts, or an error of the homomorphism.
 Turtled interpret(const ModuleString& string, const LSystem& system, const TurtleOptions& options);
+
+/// Gives every module ?P, ?H, ?U and ?L of three parameters the turtle's position, heading, up or left vector where it stands.
+/// Errors: as interpret().
+void answer_queries(ModuleString& string, const LSystem& system, const TurtleOptions& options);
 
 }  // namespace cambium

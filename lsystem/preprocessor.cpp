@@ -127,7 +127,7 @@ class Preprocessor {
     begin = std::find_if_not(begin + 1, end, blank);
     for (; begin != end && in_word(begin->c); ++begin) out.name.push_back(begin->c);
     static constexpr std::string_view kNames[] = {"define", "undef", "include", "if",     "ifdef", "ifndef",
-                                                  "elif",   "else",  "endif",   "error",  "pragma"};
+                                                  "elif",   "else",  "endif",   "error",  "pragma", "line",  "warning"};
     if (std::find(std::begin(kNames), std::end(kNames), out.name) == std::end(kNames)) return false;
     begin = std::find_if_not(begin, end, blank);
     while (begin != end && blank(*(end - 1))) --end;

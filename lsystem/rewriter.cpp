@@ -16,6 +16,10 @@ constexpr std::size_t kLongestRun = 1 << 16;  // modules copied in one go
 
 }  // namespace
 
+std::size_t most_parameters(std::size_t max_modules) {
+  return std::min<std::size_t>(std::max<std::size_t>(8 * max_modules, 1'000'000), std::numeric_limits<std::uint32_t>::max());
+}
+
 void clear(Modules& modules) {
   modules.symbol.clear();
   modules.first.assign(1, 0);
@@ -45,8 +49,10 @@ void Rewriter::fail_too_many(const Place& place) const {
 
 void Rewriter::check_size(const Modules& out, std::size_t modules, std::size_t parameters, const Place& place) const {
   if (out.size() + modules > limit_) fail_too_many(place);
-  if (out.parameters.size() + parameters > std::numeric_limits<std::uint32_t>::max())
-    throw InputError(located(program_.tables.files, place), "more than 4294967295 parameters", "fewer derivation steps");
+  if (out.parameters.size() + parameters > most_parameters(max_modules_))
+    throw InputError(located(program_.tables.files, place),
+                     "a string of more than " + std::to_string(most_parameters(max_modules_)) + " parameters",
+                     "fewer derivation steps, or a larger limit of modules");
 }
 
 void Rewriter::append_successor(const Successor& successor, std::uint64_t key, const Place& place, Modules& out) {

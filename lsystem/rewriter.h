@@ -27,6 +27,9 @@ struct PassInput {
 
 void clear(Modules& modules);
 
+/// How many parameters a string may have in all: 8 for each module that it may have, and no more than `first` can number.
+std::size_t most_parameters(std::size_t max_modules);
+
 /// Appends to a string what becomes of modules of another. Not shared by threads; several may share `variables` where no rule
 /// has effects.
 class Rewriter {
@@ -39,7 +42,7 @@ class Rewriter {
   Rewriter& operator=(const Rewriter&) = delete;
 
   /// Modules [begin, end) of input.string. False if cancelled; `out` is then unfinished.
-  /// Errors: InputError, see derive(); also if `out` would get more than `limit` modules, or parameters than can be numbered.
+  /// Errors: InputError, see derive(); also if `out` would get more than `limit` modules, or than most_parameters().
   bool rewrite(const PassInput& input, std::size_t begin, std::size_t end, std::size_t limit, Modules& out);
 
   /// As successor of no module, or as a block of statements: `which` tells its draws from others'.

@@ -6,7 +6,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace cambium {
 namespace {
@@ -135,7 +134,7 @@ void RewritingPass::rewrite_chunk(const PassInput& input, std::size_t chunk, std
 bool RewritingPass::append_piece(const PassInput& input, std::size_t chunk, Slot& slot, Modules& out) {
   if (slot.cancelled) return false;
   const bool too_long = out.size() + slot.piece.size() > max_modules_ ||
-                        out.parameters.size() + slot.piece.parameters.size() > std::numeric_limits<std::uint32_t>::max();
+                        out.parameters.size() + slot.piece.parameters.size() > most_parameters(max_modules_);
   if (slot.failed || too_long) {
     const std::size_t begin = chunk * kChunk;
     return first_.rewrite(input, begin, std::min(input.string.size(), begin + kChunk), max_modules_, out);

@@ -64,6 +64,29 @@ TEST(Derive, ADeepChainOfBranchesNeedsNoCallStack) {
   EXPECT_EQ(turtled.skeleton.nodes.back().position.z, 262144);
 }
 
+TEST(Derive, QueriesAreAnsweredByTheTurtleBeforeEveryStep) {
+  // Grows until it is 3 high, and then turns.
+  const std::string text = grammar("A?P(0,0,0)", "A > ?P(x,y,z) : z < 3 --> FA\nA > ?P(x,y,z) --> +(90)FA");
+  EXPECT_EQ(derived_text(text, 2), "FFA?P(0,0,2)");
+  EXPECT_EQ(derived_text(text, 5), "FFF+(90)F+(90)FA?P(-1,0,2)");
+  const ModuleString frame = derived(parsed(grammar("&(90)?H(0,0,0)?U(0,0,0)?L(0,0,0)?E(0,0,0)?P(1)", "A --> A\nhomomorphism\n& --> +F")), 1);
+  const double expected[] = {90, 0, 1, 0, 0, 0, -1, -1, 0, 0, 0, 0, 0, 1};
+  for (std::size_t i = 0; i < 14; ++i) EXPECT_NEAR(frame.parameters[i], expected[i], 1e-12) << i;
+}
+
+TEST(Derive, ParametersAreLimitedAsModulesAre) {
+  DeriveOptions options;
+  options.steps = 30;
+  options.max_modules = 200'000;
+  const LSystem system = parsed(grammar("A", "A --> B(1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20)AA"));
+  try {
+    derive(system, options, {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(error.found().find("1600000 parameters"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Derive, SrandMakesDrawsIndependentOfTheSeed) {
   const std::string text = grammar("A", "A : {srand(7);} * --> F(ran(1))");
   EXPECT_EQ(derived_text(text, 1, 1), derived_text(text, 1, 2));

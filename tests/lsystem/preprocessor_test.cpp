@@ -26,6 +26,8 @@ TEST(Preprocessor, ConditionsKeepOneBranch) {
 
 TEST(Preprocessor, AHashThatBeginsNoDirectiveIsATurtleSymbol) { EXPECT_EQ(expanded("#(2)F\n# F"), "#(2)F\n# F"); }
 
+TEST(Preprocessor, DirectivesThatConcernOnlyCAreSkipped) { EXPECT_EQ(expanded("#pragma once\n#line 3 \"x\"\n#warning no\nF"), "F"); }
+
 TEST(Preprocessor, EveryCharacterKnowsItsPlace) {
   const SourceText source = preprocess("/* one\ntwo */ #\n#define X ab\nq X\n", "test.l");
   const std::size_t q = source.text.find('q');
