@@ -73,6 +73,8 @@ class LeafSearch {
     const PrunedField field = cover_.cube_field(l.cell);
     inside_ = l.mask != 0;
     if (!inside_ && LoneChain::of(field)) return;   // nowhere thinner than the radii that leaves were sized by
+    const int smallest = inside_ ? finest_ : 0;   // what is thinner counts as wood, and is no doubt
+    if (inside_ && l.level <= smallest) return;
     cubes_.assign(1, {l.place, l.level});
     std::optional<Vec3> doubtful;
     for (std::size_t next = 0; next < cubes_.size(); ++next) {
@@ -81,7 +83,7 @@ class LeafSearch {
       const Box box = tree_.grid().box(cube.place, cube.level);
       if (!evaluator_.interval(field, box).contains(kIso) || neighbour_shows_surface(cube)) continue;
       if (cube.level >= finest_ && l.level > finest_ && shows(field, box.center())) return found.leaves.push_back(leaf);
-      if (cube.level > 0 && cubes_.size() < kMostCubes) {
+      if (cube.level > smallest && cubes_.size() < kMostCubes) {
         add_parts(cube);
       } else {
         doubtful = box.center();   // the last is of the smallest
