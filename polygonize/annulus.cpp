@@ -122,17 +122,20 @@ class OpenedAnnulus {
 
   // Lawson's flips: each lowers the triangles' circles, so they come to an end.
   void flip() {
-    for (std::size_t most = triangles_.size() * triangles_.size(), done = 0; done < most && flip_one(); ++done) {}
+    for (std::size_t most = triangles_.size() * triangles_.size(), rounds = 0; rounds < most && flip_some(); ++rounds) {}
   }
 
-  bool flip_one() {
-    return find_chord([&](std::size_t s, std::size_t t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+  bool flip_some() {
+    bool any = false;
+    find_chord([&](std::size_t s, std::size_t t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
       if (!in_circle(points_[a], points_[b], points_[c], points_[d])) return false;
       if (!(doubled_area(points_[c], points_[a], points_[d]) > 0 && doubled_area(points_[d], points_[b], points_[c]) > 0)) return false;
       triangles_[s] = {c, a, d};
       triangles_[t] = {d, b, c};
-      return true;
+      any = true;
+      return false;
     });
+    return any;
   }
 
   /// Sides of the polygon stay.

@@ -3,6 +3,8 @@
 #include "polygonize/cube_edges.h"
 #include "polygonize/ordered_chunks.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 
 namespace cambium {
@@ -89,12 +91,12 @@ void compact(Contour& contour, const Living& living) {
   contour.rings.shrink_to_fit();
   for (const std::uint32_t e : living.edges)
     for (std::uint32_t& patch : contour.patch_of_quadrant[e]) patch = patch_now[patch];
-  keep_listed(contour.edges, living.edges);
-  keep_listed(contour.edge_alive, living.edges);
-  keep_listed(contour.crossings, living.edges);
-  keep_listed(contour.patch_of_quadrant, living.edges);
-  keep_listed(contour.patches, living.patches);
-  keep_listed(contour.vertices, living.patches);
+  const auto keep = [](auto& items, const std::vector<std::uint32_t>& kept) {
+    return [&] { keep_listed(items, kept); };
+  };
+  tbb::parallel_invoke(keep(contour.edges, living.edges), keep(contour.edge_alive, living.edges), keep(contour.crossings, living.edges),
+                       keep(contour.patch_of_quadrant, living.edges), keep(contour.patches, living.patches),
+                       keep(contour.vertices, living.patches));
 }
 
 }  // namespace cambium
