@@ -1,30 +1,65 @@
 #include "polygonize/mesh_components.h"
 
+#include "polygonize/ordered_chunks.h"
+
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace cambium {
 namespace {
 
-constexpr std::size_t kPollEvery = 1 << 18;   // triangles: a few milliseconds
+constexpr std::size_t kPerTask = 1 << 16;   // triangles: about a millisecond
 
+/// Sets that several threads may join at once (Anderson & Woll 1991). A set's root is its least member, whoever was first.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
   std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    for (std::uint32_t above = parent(v).load(); above != v;) {
+      const std::uint32_t next = parent(above).load();
+      if (next != above) parent(v).compare_exchange_weak(above, next);   // halves the way for those who come after
+      v = next;
+      above = parent(v).load();
+    }
     return v;
   }
   void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    for (;;) {
+      a = root(a), b = root(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      std::uint32_t still_root = a;
+      if (parent(a).compare_exchange_strong(still_root, b)) return;
+    }
   }
 
  private:
+  std::atomic_ref<std::uint32_t> parent(std::uint32_t v) { return std::atomic_ref(parent_[v]); }
   std::vector<std::uint32_t> parent_;
+};
+
+struct Size {
+  double volume = 0, area = 0;
+};
+
+/// Of some triangles, by the root of their component.
+class Sizes {
+ public:
+  Size& of(std::uint32_t root) {   // neighbours in the list mostly are of one
+    if (!last_ || last_root_ != root) last_ = &by_root_[root], last_root_ = root;
+    return *last_;
+  }
+  const std::unordered_map<std::uint32_t, Size>& by_root() const { return by_root_; }
+
+ private:
+  std::unordered_map<std::uint32_t, Size> by_root_;
+  Size* last_ = nullptr;
+  std::uint32_t last_root_ = 0;
 };
 
 // Drops the vertices marked, and the triangles on them.
@@ -59,21 +94,28 @@ void remove_vertices(Mesh& mesh, const std::vector<bool>& gone) {
 
 std::optional<ComponentReport> drop_small_components(Mesh& mesh, double thickness, double crumb, const RunOptions& run) {
   DisjointSets sets(mesh.positions.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (i % kPollEvery == 0 && run.cancelled()) return std::nullopt;
-    sets.join(mesh.triangles[i][0], mesh.triangles[i][1]);
-    sets.join(mesh.triangles[i][0], mesh.triangles[i][2]);
-  }
-  std::vector<double> volume(mesh.positions.size(), 0.0), area(mesh.positions.size(), 0.0);   // at roots
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (i % kPollEvery == 0 && run.cancelled()) return std::nullopt;
-    const auto& t = mesh.triangles[i];
+  const auto for_triangles = [&](auto&& body) {
+    return in_chunks<Sizes>(mesh.triangles.size(), kPerTask, [&](Sizes& part, std::size_t begin, std::size_t end) {
+      if (run.cancelled()) return;
+      for (std::size_t i = begin; i < end; ++i) body(mesh.triangles[i], part);
+    });
+  };
+  for_triangles([&](const auto& t, Sizes&) {
+    sets.join(t[0], t[1]);
+    sets.join(t[0], t[2]);
+  });
+  const auto sizes = for_triangles([&](const auto& t, Sizes& part) {
     const std::uint32_t root = sets.root(t[0]);
     const Vec3& from = mesh.positions[root];   // near the component, so that small volumes keep their digits
-    volume[root] += glm::dot(mesh.positions[t[0]] - from,
-                             glm::cross(mesh.positions[t[1]] - from, mesh.positions[t[2]] - from)) / 6;
-    area[root] += glm::length(glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]])) / 2;
-  }
+    Size& size = part.of(root);
+    size.volume += glm::dot(mesh.positions[t[0]] - from,
+                            glm::cross(mesh.positions[t[1]] - from, mesh.positions[t[2]] - from)) / 6;
+    size.area += glm::length(glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]])) / 2;
+  });
+  if (run.cancelled()) return std::nullopt;
+  std::vector<double> volume(mesh.positions.size(), 0.0), area(mesh.positions.size(), 0.0);   // at roots
+  for (const Sizes& part : sizes)
+    for (const auto& [root, size] : part.by_root()) volume[root] += size.volume, area[root] += size.area;
   ComponentReport report;
   std::vector<bool> gone(mesh.positions.size(), false);
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {

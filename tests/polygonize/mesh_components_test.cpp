@@ -3,6 +3,7 @@
 #include "tests/polygonize/mesh_checks.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <cmath>
@@ -72,6 +73,27 @@ TEST(MeshComponents, CancelledItLeavesTheMeshAlone) {
   EXPECT_EQ(mesh.triangles.size(), 4u);
   EXPECT_EQ(drop_small_components(mesh, 1, 0, {})->closed_voids, 1u);
   EXPECT_TRUE(mesh.triangles.empty());
+}
+
+// Many components, each through all of the list, so that threads join the same sets at once.
+TEST(MeshComponents, AreCountedAlikeByAnyNumberOfThreads) {
+  constexpr std::uint32_t kPieces = 7, kRings = 60'000;
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < kRings; ++i)
+    for (std::uint32_t piece = 0; piece < kPieces; ++piece) mesh.positions.emplace_back(i % 3, i % 2, piece);
+  for (std::uint32_t i = kRings - 2; i-- > 0;)
+    for (std::uint32_t piece = 0; piece < kPieces; ++piece) {
+      const std::uint32_t a = i * kPieces + piece;
+      mesh.triangles.push_back({a, a + 2 * kPieces, a + kPieces});
+    }
+  for (const int threads : {1, 4}) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      Mesh copy = mesh;
+      EXPECT_EQ(drop_small_components(copy, 0, 0, {})->components, kPieces);
+      EXPECT_EQ(copy.triangles, mesh.triangles);
+    });
+  }
 }
 
 }  // namespace
