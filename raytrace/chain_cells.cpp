@@ -50,7 +50,7 @@ class MostOfChains {
       return;
     }
     const double per = 1 / (support * support);
-    parabolas_[count_++] = {within, view.square * per, view.mixed * per, view.d_square * per, opens_chain};
+    parabolas_[count_++] = {within.begin, within.end, view.square * per, view.mixed * per, view.d_square * per, opens_chain};
   }
   /// Holds all of the part where they may reach kIso. Parabolas are seen from the ray's place `middle`.
   RaySegment where_surface_may_be(const RaySegment& part, double middle) const {
@@ -65,10 +65,10 @@ class MostOfChains {
   }
 
  private:
-  struct Parabola {
-    RaySegment within;
-    double constant = 0, half_slope = 0, square = 0;
-    bool opens_chain = false;
+  struct Parabola {   // nothing set before it is added: most rays need few
+    double begin, end;
+    double constant, half_slope, square;
+    bool opens_chain;
     double least(const RaySegment& stretch, double middle) const {
       double at = stretch.begin - middle;
       if (const double end = stretch.end - middle; half_slope + square * at < 0) at = half_slope + square * end < 0 ? end : -half_slope / square;
@@ -81,7 +81,7 @@ class MostOfChains {
     for (std::size_t i = 0; i < count_; ++i) {
       const Parabola& it = parabolas_[i];
       if (it.opens_chain) sum += value(least), least = 1;
-      if (it.within.begin <= stretch.end && it.within.end >= stretch.begin) least = std::min(least, std::max(0.0, it.least(stretch, middle)));
+      if (it.begin <= stretch.end && it.end >= stretch.begin) least = std::min(least, std::max(0.0, it.least(stretch, middle)));
     }
     return sum + value(least);
   }

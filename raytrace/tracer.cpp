@@ -8,6 +8,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -20,6 +22,7 @@ constexpr std::size_t kMostCells = 4000000;   // beyond, the hierarchy would tak
 constexpr double kCellRadii = 3.2;            // half of this is as fast, and takes twice the memory
 constexpr double kDeep = 1e-3;                // of f: far more than a root may be off
 constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::size_t kMostWaiting = 24;
 constexpr float kFloatMax = std::numeric_limits<float>::max();
 
 float below(double v) { return std::nextafter(static_cast<float>(v), -kFloatMax); }
@@ -43,6 +46,12 @@ struct Query {
   double t = kInfinity;                  // of the nearest hit
   std::uint32_t cell = kNone;            // the one it is in, unless it is on a segment
   std::uint32_t on_segment = kNone;      // set where that is in closed form
+  struct Waiting {                       // plain, so that none is set before it is used
+    double begin, end;
+    std::uint32_t cell;                  // of ChainCells
+  };
+  std::array<Waiting, kMostWaiting> waiting;   // the first waiting_count
+  std::size_t waiting_count = 0;
 
   Query(const Ray& of, Evaluator& with, PlaceWanted what) : ray(of), clipper(of), evaluator(with), wanted(what) {
 #if CAMBIUM_EMBREE_MAJOR >= 4
@@ -117,6 +126,25 @@ struct Tracer::Scene {
     return t && query.take(*t, kNone, cell);
   }
 
+  /// Where chains blend, roots of the field.
+  bool search_chains(Query& query, const RaySegment& part, std::uint32_t k) const {
+    const ChainVerdict verdict = chains.judge(k, query.ray, part, query.wanted);
+    if (verdict.how == ChainVerdict::How::kMiss) return false;
+    if (verdict.how == ChainVerdict::How::kHit) return query.take(verdict.t, verdict.segment, kNone);
+    const std::uint32_t cell = chains.cell(k);
+    return (verdict.part.begin <= query.t && search(query, cover.field(cell), verdict.part, cell)) ||
+           (verdict.t < kInfinity && query.take(verdict.t, verdict.segment, kNone));
+  }
+
+  /// The nearest first, and only what lies before the nearest hit.
+  void search_waiting(Query& query) const {
+    if (query.wanted == PlaceWanted::kAny && query.found()) return;
+    const auto end = query.waiting.begin() + static_cast<std::ptrdiff_t>(query.waiting_count);
+    std::sort(query.waiting.begin(), end, [](const auto& a, const auto& b) { return a.begin < b.begin; });
+    for (auto it = query.waiting.begin(); it != end && it->begin <= query.t; ++it)
+      if (search_chains(query, {it->begin, it->end}, it->cell) && query.wanted == PlaceWanted::kAny) return;
+  }
+
   /// Chains where nothing is taken away from them, in closed form.
   struct WoodKind {
     static Box bounds(const Scene& self, unsigned k) { return self.chains.segments().box(self.pieces[k]); }
@@ -126,18 +154,15 @@ struct Tracer::Scene {
       return t && query.take(*t, segment, kNone);
     }
   };
-  /// Cells with chains only: where they blend, roots of the field.
+  /// Cells with chains only. What they may hold before the wood has to be searched for: they wait until the wood is met.
   struct ChainKind {
     static Box bounds(const Scene& self, unsigned k) { return self.chains.box(k); }
     static bool solve(const Scene& self, Query& query, unsigned k) {
       const auto part = query.clipper.clip(self.chains.box(k), query.segment);
       if (!part || part->begin > query.t) return false;
-      const ChainVerdict verdict = self.chains.judge(k, query.ray, *part, query.wanted);
-      if (verdict.how == ChainVerdict::How::kMiss) return false;
-      if (verdict.how == ChainVerdict::How::kHit) return query.take(verdict.t, verdict.segment, kNone);
-      const std::uint32_t cell = self.chains.cell(k);
-      return (verdict.part.begin <= query.t && self.search(query, self.cover.field(cell), verdict.part, cell)) ||
-             (verdict.t < kInfinity && query.take(verdict.t, verdict.segment, kNone));
+      if (query.waiting_count == kMostWaiting) return self.search_chains(query, *part, k);
+      query.waiting[query.waiting_count++] = {part->begin, part->end, k};
+      return false;
     }
   };
   /// Cells with anything else: roots of the field.
@@ -277,6 +302,7 @@ std::optional<SurfaceHit> Tracer::intersect(Evaluator& evaluator, const Ray& ray
 #else
   rtcIntersect1(scene_->scene, &query.context, &rayhit);
 #endif
+  scene_->search_waiting(query);
   if (!query.found()) return std::nullopt;
   return scene_->hit_of(query);
 }
@@ -293,6 +319,7 @@ bool Tracer::occluded(Evaluator& evaluator, const Ray& ray, double t_end) const 
 #else
   rtcOccluded1(scene_->scene, &query.context, &embree_ray);
 #endif
+  scene_->search_waiting(query);
   return query.found();
 }
 
