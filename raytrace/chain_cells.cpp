@@ -71,7 +71,7 @@ class MostOfChains {
     bool opens_chain;
     double least(const RaySegment& stretch, double middle) const {
       double at = stretch.begin - middle;
-      if (const double end = stretch.end - middle; half_slope + square * at < 0) at = half_slope + square * end < 0 ? end : -half_slope / square;
+      if (const double last = stretch.end - middle; half_slope + square * at < 0) at = half_slope + square * last < 0 ? last : -half_slope / square;
       return constant + (2 * half_slope + square * at) * at;
     }
   };
