@@ -16,8 +16,9 @@
 namespace cambium::bench {
 namespace {
 
-constexpr int kRounds = 3;                 // the best of each counts
-constexpr double kModulesPerSecond = 5e6;  // the issue's: of the final string, per second of one core, however many steps it took
+constexpr int kRounds = 3;  // the best of each counts
+constexpr double kModulesPerSecond =
+    5e6;  // the issue's: of the final string, per second of one core, however many steps it took
 constexpr double kBytesPerModule = 24;
 
 struct Model {
@@ -49,7 +50,8 @@ constexpr Model kModels[] = {
 
 double bytes_per_module(const ModuleString& string) {
   const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-  return static_cast<double>(bytes(string.symbol) + bytes(string.first) + bytes(string.key)) / static_cast<double>(string.size());
+  return static_cast<double>(bytes(string.symbol) + bytes(string.first) + bytes(string.key)) /
+         static_cast<double>(string.size());
 }
 
 ModuleString derived(const LSystem& system, int steps, int threads) {
@@ -70,9 +72,10 @@ bool same(const ModuleString& a, const ModuleString& b) {
 void add_drawing(Report& report, const LSystem& system, const ModuleString& string) {
   double seconds = 0;
   const Turtled turtled = timed(seconds, [&] { return interpret(string, system, {}); });
-  report.add({.what = fmt::format("  turtle, {:.1f} million internodes", static_cast<double>(turtled.skeleton.nodes.size()) / 1e6),
-              .figure = seconds,
-              .unit = "s"});
+  report.add(
+      {.what = fmt::format("  turtle, {:.1f} million internodes", static_cast<double>(turtled.skeleton.nodes.size()) / 1e6),
+       .figure = seconds,
+       .unit = "s"});
 }
 
 void add_model(Report& report, const Model& model, bool quick) {
@@ -101,9 +104,15 @@ void add_model(Report& report, const Model& model, bool quick) {
               .figure = modules / one / 1e6,
               .unit = "M modules/s",
               .target = at_least(kModulesPerSecond / 1e6)});
-  report.add({.what = "  with two threads", .figure = modules / two_wall / 1e6, .unit = "M modules/s", .ratio = two_wall / one_wall,
+  report.add({.what = "  with two threads",
+              .figure = modules / two_wall / 1e6,
+              .unit = "M modules/s",
+              .ratio = two_wall / one_wall,
               .ratio_to = "one thread's time"});
-  report.add({.what = "  without parameters", .figure = bytes_per_module(string), .unit = "B/module", .target = at_most(kBytesPerModule)});
+  report.add({.what = "  without parameters",
+              .figure = bytes_per_module(string),
+              .unit = "B/module",
+              .target = at_most(kBytesPerModule)});
   report.add({.what = "  most memory while deriving", .figure = peak / modules, .unit = "B/module"});
   if (!equal) report.note("  TWO THREADS MADE ANOTHER STRING THAN ONE");
   if (model.is_drawn) add_drawing(report, system, string);

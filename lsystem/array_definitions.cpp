@@ -39,7 +39,8 @@ double ArrayDefinitions::constant() {
 
 void ArrayDefinitions::check_new(const std::string& name, std::size_t at) const {
   if (name.empty()) cursor_.fail("a name");
-  if (names_.arrays.count(name) || names_.variables.count(name)) cursor_.fail_at(at, "'" + name + "' twice", "different names");
+  if (names_.arrays.count(name) || names_.variables.count(name))
+    cursor_.fail_at(at, "'" + name + "' twice", "different names");
 }
 
 // `[2,3]` or `[2][3]`.
@@ -114,7 +115,8 @@ void ArrayDefinitions::external() {
     (is_array ? names_.arrays : names_.variables).emplace(name, found->second);
     return;
   }
-  cursor_.fail_at(at, "'" + name + "'", is_array ? "an array of an L-system before this one" : "a variable of an L-system before this one");
+  cursor_.fail_at(at, "'" + name + "'",
+                  is_array ? "an array of an L-system before this one" : "a variable of an L-system before this one");
 }
 
 }  // namespace cambium

@@ -1,15 +1,15 @@
 // `define:` ... what an L-system declares before its axiom.
 #pragma once
 
-#include "lsystem/expression_compiler.h"
-
 #include <vector>
+
+#include "lsystem/expression_compiler.h"
 
 namespace cambium {
 
-/// Reads the `{ array a[2][3] = {...}; external b; }` of a `define:`. Sizes and values are constant expressions; values fill an
-/// array in row-major order, inner braces only group, and what is not given is 0. `external` names a variable or array of an
-/// L-system that stands before this one in the file. Errors: InputError.
+/// Reads the `{ array a[2][3] = {...}; external b; }` of a `define:`. Sizes and values are constant expressions; values fill
+/// an array in row-major order, inner braces only group, and what is not given is 0. `external` names a variable or array of
+/// an L-system that stands before this one in the file. Errors: InputError.
 class ArrayDefinitions {
  public:
   /// `earlier`: names of the L-systems before this one. `values`: initial values of all variables so far; grows.

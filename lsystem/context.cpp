@@ -58,7 +58,8 @@ std::size_t ContextMatcher::end_of_branch(std::size_t at) {
   return at;
 }
 
-bool ContextMatcher::right(const std::vector<ContextModule>& right, std::size_t begin, const System& system, double* locals) {
+bool ContextMatcher::right(const std::vector<ContextModule>& right, std::size_t begin, const System& system,
+                           double* locals) {
   std::size_t at = begin;
   bool wrapped = !system.ring;
   for (const ContextModule& wanted : right) {

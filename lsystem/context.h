@@ -1,12 +1,12 @@
 // Left and right contexts in a bracketed string, as cpfg matches them.
 #pragma once
 
-#include "lsystem/lsystem.h"
-#include "lsystem/program.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "lsystem/lsystem.h"
+#include "lsystem/program.h"
 
 namespace cambium {
 
@@ -22,9 +22,12 @@ class BracketPairs {
 };
 
 /// Matches contexts of one pass's string, whose brackets are linked.
-///  - Leftwards branches are stepped over and an opening bracket leads on to the parent axis; only ignored symbols are skipped.
-///  - Rightwards a branch is stepped over unless the context has a `[` there, and then the next module has to be that bracket;
-///    a `]` in the context has to come right behind what was matched, unless `=` stands before it, which takes the rest of the branch.
+///  - Leftwards branches are stepped over and an opening bracket leads on to the parent axis; only ignored symbols are
+///  skipped.
+///  - Rightwards a branch is stepped over unless the context has a `[` there, and then the next module has to be that
+///  bracket;
+///    a `]` in the context has to come right behind what was matched, unless `=` stands before it, which takes the rest of
+///    the branch.
 ///  - Brackets that `consider:` leaves out are seen through by right contexts, like any ignored symbol.
 ///  - In a ring the string's ends meet.
 class ContextMatcher {
@@ -39,7 +42,7 @@ class ContextMatcher {
   /// The `]` of the branch that `at` is in, or the string's size.
   std::size_t end_of_branch(std::size_t at);
 
-  std::uint64_t work = 0;   ///< modules stepped over so far
+  std::uint64_t work = 0;  ///< modules stepped over so far
 
  private:
   const LSystemProgram& program_;

@@ -1,13 +1,13 @@
 #include "lsystem/curve.h"
 
-#include "lsystem/preprocessor.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 #include <system_error>
 #include <utility>
+
+#include "lsystem/preprocessor.h"
 
 namespace cambium {
 namespace {
@@ -55,8 +55,8 @@ class Lines {
     if (!text) fail("'" + std::string(key) + "'");
     char* end = nullptr;
     const double count = std::strtod(text->c_str(), &end);
-    if (end == text->c_str() || *end != '\0' || !(count >= static_cast<double>(least) && count <= static_cast<double>(most)) ||
-        count != std::floor(count))
+    if (end == text->c_str() || *end != '\0' ||
+        !(count >= static_cast<double>(least) && count <= static_cast<double>(most)) || count != std::floor(count))
       fail("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
     advance();
     return static_cast<std::size_t>(count);
@@ -64,7 +64,8 @@ class Lines {
 
   [[noreturn]] void fail(std::string expected) const {
     const std::string found(line_.substr(0, 40));
-    throw InputError({file_, static_cast<int>(number_), 1}, at_end_ ? "the end of the file" : "'" + found + "'", std::move(expected));
+    throw InputError({file_, static_cast<int>(number_), 1}, at_end_ ? "the end of the file" : "'" + found + "'",
+                     std::move(expected));
   }
   const std::string& file() const { return file_; }
 
@@ -161,7 +162,8 @@ void append_curves_of_view(const std::filesystem::path& view, std::vector<Curve>
 Curve::Curve(std::string name, std::vector<CurvePoint> points, std::size_t samples)
     : name_(std::move(name)), points_(std::move(points)) {
   if (samples <= 2) return;
-  for (std::size_t i = 0; i < samples; ++i) table_.push_back(solved(static_cast<double>(i) / static_cast<double>(samples - 1)));
+  for (std::size_t i = 0; i < samples; ++i)
+    table_.push_back(solved(static_cast<double>(i) / static_cast<double>(samples - 1)));
 }
 
 // De Boor's algorithm over the knots 0,0,0,0,1,2,..,n,n,n,n.
@@ -211,7 +213,8 @@ std::vector<Curve> read_curves(std::string_view text, const std::filesystem::pat
     out.push_back(read_ranged(lines));
   } else if (lines.value("funcgalleryver")) {
     lines.advance();
-    for (std::size_t left = lines.take_count("items:", 0, kMaxPoints); left > 0; --left) out.push_back(read_versioned(lines));
+    for (std::size_t left = lines.take_count("items:", 0, kMaxPoints); left > 0; --left)
+      out.push_back(read_versioned(lines));
   } else if (lines.value("fver")) {
     out.push_back(read_versioned(lines));
   } else {

@@ -24,7 +24,7 @@ class Curve {
   double value(double x) const;
 
  private:
-  CurvePoint at(double parameter) const;   ///< in [0, 1] along the curve
+  CurvePoint at(double parameter) const;  ///< in [0, 1] along the curve
   double solved(double x) const;
 
   std::string name_;
@@ -32,13 +32,13 @@ class Curve {
   std::vector<double> table_;
 };
 
-/// One function (`fver 1 1`, or the older form that begins with `range:`) or a set of them (`funcgalleryver 1 1`). The older form
-/// has no name: it gets the file's. Errors: InputError with the line.
+/// One function (`fver 1 1`, or the older form that begins with `range:`) or a set of them (`funcgalleryver 1 1`). The older
+/// form has no name: it gets the file's. Errors: InputError with the line.
 std::vector<Curve> read_curves(std::string_view text, const std::filesystem::path& file);
 
-/// The curves of a model, number 1 first: those that the `function:` and `function set:` lines of its view file name, which is
-/// MODEL.v or else the only .v of the folder; without any such line, those of the folder's .fset files, and without any of these
-/// those of its .func files, by name. Errors: InputError.
+/// The curves of a model, number 1 first: those that the `function:` and `function set:` lines of its view file name, which
+/// is MODEL.v or else the only .v of the folder; without any such line, those of the folder's .fset files, and without any
+/// of these those of its .func files, by name. Errors: InputError.
 std::vector<Curve> curves_beside(const std::filesystem::path& model);
 
 }  // namespace cambium

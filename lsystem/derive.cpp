@@ -1,11 +1,11 @@
 // Derivation: the axiom, and what becomes of it step by step.
-#include "lsystem/lsystem.h"
-#include "lsystem/program.h"
-#include "lsystem/rewriting_pass.h"
-
 #include <algorithm>
 #include <unordered_map>
 #include <utility>
+
+#include "lsystem/lsystem.h"
+#include "lsystem/program.h"
+#include "lsystem/rewriting_pass.h"
 
 namespace cambium {
 namespace {
@@ -14,14 +14,19 @@ namespace {
 class Derivation {
  public:
   Derivation(const LSystem& system, const DeriveOptions& options, const RunOptions& run)
-      : system_(system), options_(options), program_(system.program()), run_(run), pass_(program_, options.max_modules, run, &options.print) {
+      : system_(system),
+        options_(options),
+        program_(system.program()),
+        run_(run),
+        pass_(program_, options.max_modules, run, &options.print) {
     steps_ = options.steps.value_or(program_.main().derivation_length);
     if (steps_ < 0)
       throw InputError(located(program_.tables.files, program_.main().place), "an L-system without a derivation length",
                        "'derivation length:', or a number of steps of 0 or more");
     pass_.seed = options.seed.value_or(program_.main().seed);
     const auto& names = program_.symbols.names();
-    asks_ = std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.size() == 2 && name[0] == '?'; });
+    asks_ =
+        std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.size() == 2 && name[0] == '?'; });
   }
 
   int steps() const { return steps_; }
@@ -94,7 +99,7 @@ class Derivation {
   const LSystemProgram& program_;
   const RunOptions& run_;
   RewritingPass pass_;
-  bool asks_ = false;          // there may be queries
+  bool asks_ = false;  // there may be queries
   int steps_ = 0;
   std::uint64_t step_ = 0;
   Modules modules_, next_;

@@ -18,10 +18,10 @@ struct BinaryOperator {
 
 // Longer spellings first, so that `<=` is not read as `<`.
 constexpr BinaryOperator kBinary[] = {
-    {"||", 1, Op::kOrJump}, {"&&", 2, Op::kAndJump},      {"==", 3, Op::kEqual}, {"!=", 3, Op::kNotEqual}, {"<>", 3, Op::kNotEqual},
-    {"<=", 4, Op::kLessEqual}, {">=", 4, Op::kGreaterEqual}, {"<", 4, Op::kLess},  {">", 4, Op::kGreater},
-    {"+", 5, Op::kAdd},     {"-", 5, Op::kSubtract},      {"*", 6, Op::kMultiply}, {"/", 6, Op::kDivide},
-    {"%", 6, Op::kModulo},  {"^", 7, Op::kPower},
+    {"||", 1, Op::kOrJump},   {"&&", 2, Op::kAndJump},   {"==", 3, Op::kEqual},        {"!=", 3, Op::kNotEqual},
+    {"<>", 3, Op::kNotEqual}, {"<=", 4, Op::kLessEqual}, {">=", 4, Op::kGreaterEqual}, {"<", 4, Op::kLess},
+    {">", 4, Op::kGreater},   {"+", 5, Op::kAdd},        {"-", 5, Op::kSubtract},      {"*", 6, Op::kMultiply},
+    {"/", 6, Op::kDivide},    {"%", 6, Op::kModulo},     {"^", 7, Op::kPower},
 };
 
 const BinaryOperator* binary_operator_at(const Cursor& cursor) {
@@ -31,12 +31,13 @@ const BinaryOperator* binary_operator_at(const Cursor& cursor) {
   return nullptr;
 }
 
-// What cpfg's language has for its window, files and sounds. They change nothing of the string: their arguments are read, no more.
+// What cpfg's language has for its window, files and sounds. They change nothing of the string: their arguments are read, no
+// more.
 constexpr std::string_view kFileFunctions[] = {"fopen", "fclose", "fflush", "fprintf", "play", "stop", "Display"};
 
 bool draws_or_looks_up(Function function) {
-  return function == Function::kRan || function == Function::kNran || function == Function::kBran || function == Function::kBiran ||
-         function == Function::kSrand || function == Function::kFunc;
+  return function == Function::kRan || function == Function::kNran || function == Function::kBran ||
+         function == Function::kBiran || function == Function::kSrand || function == Function::kFunc;
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ double read_number(Cursor& cursor) {
   const auto [end, error] = std::from_chars(text.data() + begin, text.data() + text.size(), value);
   const auto length = static_cast<std::size_t>(end - (text.data() + begin));
   if (error == std::errc::result_out_of_range)
-    cursor.fail_at(begin, "'" + text.substr(begin, length < 40 ? length : 40) + "'", "a number within the range of a double");
+    cursor.fail_at(begin, "'" + text.substr(begin, length < 40 ? length : 40) + "'",
+                   "a number within the range of a double");
   cursor.advance(length);
   return value;
 }
@@ -77,8 +79,8 @@ void ExpressionCompiler::emit_operator(Op op, std::uint32_t operand, std::size_t
   fold(operands);
 }
 
-// Macros make expressions of constants (ABOP's #defines do): the last operator and its operands become one constant, unless that
-// fails: then it fails where and when it is needed.
+// Macros make expressions of constants (ABOP's #defines do): the last operator and its operands become one constant, unless
+// that fails: then it fails where and when it is needed.
 void ExpressionCompiler::fold(std::size_t operands) {
   const std::size_t count = operands + 1;
   if (code_.instructions.size() < count || code_.instructions.size() - count < unfolded_) return;
@@ -175,8 +177,9 @@ void ExpressionCompiler::primary() {
     cursor_.expect_close(at, "or an operator");
     return;
   }
-  if (is_digit(cursor_.peek()) || (cursor_.peek() == '.' && is_digit(cursor_.peek(1)))) return emit_constant(read_number(cursor_), at);
-  if (cursor_.peek() == '"') {   // of a label, which only is drawn: `@L("%g",x)`
+  if (is_digit(cursor_.peek()) || (cursor_.peek() == '.' && is_digit(cursor_.peek(1))))
+    return emit_constant(read_number(cursor_), at);
+  if (cursor_.peek() == '"') {  // of a label, which only is drawn: `@L("%g",x)`
     quoted_text();
     return emit_constant(0, at);
   }

@@ -1,8 +1,9 @@
 // A module's place in the tree as a number that its descendants inherit: what its random draws depend on.
 //
-// A module's key is a hash of its parent's key and of its slot in the successor that made it: its symbol's name, and how many
-// of that name stand before it there. So a key tells the path from the axiom and nothing of the string around it: a production
-// that is changed, or given another module, leaves the keys, and so the draws, of all that does not descend from what it changed.
+// A module's key is a hash of its parent's key and of its slot in the successor that made it: its symbol's name, and how
+// many of that name stand before it there. So a key tells the path from the axiom and nothing of the string around it: a
+// production that is changed, or given another module, leaves the keys, and so the draws, of all that does not descend from
+// what it changed.
 #pragma once
 
 #include <cstdint>

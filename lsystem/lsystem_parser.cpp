@@ -1,15 +1,15 @@
 // The sections of an L-system file.
-#include "lsystem/array_definitions.h"
-#include "lsystem/lsystem.h"
-#include "lsystem/module_parser.h"
-#include "lsystem/preprocessor.h"
-#include "lsystem/program.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
+
+#include "lsystem/array_definitions.h"
+#include "lsystem/lsystem.h"
+#include "lsystem/module_parser.h"
+#include "lsystem/preprocessor.h"
+#include "lsystem/program.h"
 
 namespace cambium {
 namespace {
@@ -106,7 +106,8 @@ class Parser {
       system_->ring = true;
       return true;
     }
-    if ((keyword == "derivation length" || keyword == "maximum depth") && cursor_.peek() != ':') cursor_.fail("':' after '" + keyword + "'");
+    if ((keyword == "derivation length" || keyword == "maximum depth") && cursor_.peek() != ':')
+      cursor_.fail("':' after '" + keyword + "'");
     if (is_keyword(keyword.substr(0, keyword.find(' '))) && cursor_.peek() == ':' && keyed(keyword, begin)) return true;
     cursor_.seek(begin);
     add(ModuleParser(cursor_, *program_, scope_).production());
@@ -138,7 +139,8 @@ class Parser {
     std::string word = lower_case(cursor_.word());
     cursor_.skip_space();
     if (word == "no") word = lower_case(cursor_.word());
-    if (!word.empty() && word != "warnings") cursor_.fail_at(at, cursor_.describe(at), "'warnings', 'no warnings' or the end of the line");
+    if (!word.empty() && word != "warnings")
+      cursor_.fail_at(at, cursor_.describe(at), "'warnings', 'no warnings' or the end of the line");
     end_line();
   }
 
@@ -245,7 +247,8 @@ class Parser {
   void add(Production production) {
     const bool multiple = production.predecessor.size() > 1;
     bool effects = false;
-    for (const Code* code : {&production.before, &production.condition, &production.after, &production.weight, &production.successor.parameters})
+    for (const Code* code : {&production.before, &production.condition, &production.after, &production.weight,
+                             &production.successor.parameters})
       effects = effects || code->has_effects;
     rules_->has_context = rules_->has_context || !production.left.empty() || !production.right.empty();
     rules_->in_order = rules_->in_order || multiple || effects;
@@ -272,13 +275,13 @@ class Parser {
   const SourceText& source_;
   Cursor cursor_;
   std::shared_ptr<LSystemProgram> program_ = std::make_shared<LSystemProgram>();
-  System* system_ = nullptr;                          // the one being read
-  std::vector<std::unique_ptr<SystemNames>> names_;   // of each L-system
+  System* system_ = nullptr;                         // the one being read
+  std::vector<std::unique_ptr<SystemNames>> names_;  // of each L-system
   std::uint32_t slots_ = 0;
   Scope scope_;
   bool axiom_seen_ = false;
   RuleSet* rules_ = nullptr;
-  std::vector<ContextList> context_lists_;            // of each L-system
+  std::vector<ContextList> context_lists_;  // of each L-system
 };
 
 }  // namespace
@@ -296,8 +299,10 @@ LSystem LSystem::parse(std::string_view text, const std::filesystem::path& file,
   const SourceText source = preprocess(text, file);
   auto program = Parser(source, file).read();
   if (label) {
-    const auto named = std::find_if(program->systems.begin(), program->systems.end(), [&](const System& s) { return s.label == *label; });
-    if (named == program->systems.end()) throw InputError({file.string(), 0, 0}, "no L-system '" + *label + "'", "one of the file's labels");
+    const auto named =
+        std::find_if(program->systems.begin(), program->systems.end(), [&](const System& s) { return s.label == *label; });
+    if (named == program->systems.end())
+      throw InputError({file.string(), 0, 0}, "no L-system '" + *label + "'", "one of the file's labels");
     program->main_index = static_cast<std::size_t>(named - program->systems.begin());
   }
   LSystem system;

@@ -1,11 +1,11 @@
 #include "lsystem/module_parser.h"
 
-#include "lsystem/lineage.h"
-
 #include <algorithm>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+
+#include "lsystem/lineage.h"
 
 namespace cambium {
 namespace {
@@ -37,8 +37,9 @@ std::string lower_case(std::string word) {
 
 bool is_keyword(const std::string& word) {
   static constexpr std::string_view kWords[] = {
-      "lsystem", "endlsystem", "seed", "derivation", "define", "ring", "consider", "ignore", "start", "starteach", "endeach",
-      "end", "axiom", "homomorphism", "interpretation", "decomposition", "maximum", "production", "productions"};
+      "lsystem",        "endlsystem",    "seed",      "derivation", "define",     "ring",  "consider",
+      "ignore",         "start",         "starteach", "endeach",    "end",        "axiom", "homomorphism",
+      "interpretation", "decomposition", "maximum",   "production", "productions"};
   return std::find(std::begin(kWords), std::end(kWords), lower_case(word)) != std::end(kWords);
 }
 
@@ -62,12 +63,14 @@ std::optional<std::string> ModuleParser::symbol() {
 
 std::uint16_t ModuleParser::number(const std::string& name, std::size_t at) {
   const std::uint16_t number = program_.symbols.number(name);
-  if (program_.symbols.names().size() >= SymbolTable::kMaxSymbols) cursor_.fail_at(at, "too many symbols", "fewer than 65535");
+  if (program_.symbols.names().size() >= SymbolTable::kMaxSymbols)
+    cursor_.fail_at(at, "too many symbols", "fewer than 65535");
   return number;
 }
 
-// At a line end: whether the next line that is not blank goes on with the successor. It does if it is indented (cpfg asks for a
-// tab), or inside brackets, and nothing in it makes it a production or a keyword of its own. Leaves the cursor there if so.
+// At a line end: whether the next line that is not blank goes on with the successor. It does if it is indented (cpfg asks
+// for a tab), or inside brackets, and nothing in it makes it a production or a keyword of its own. Leaves the cursor there
+// if so.
 bool ModuleParser::line_continues(bool inside_brackets) {
   const std::string& text = cursor_.source().text;
   const std::size_t before = cursor_.position();
@@ -79,7 +82,8 @@ bool ModuleParser::line_continues(bool inside_brackets) {
   const std::string word = cursor_.word();
   const std::size_t next = std::min(text.find_first_not_of(" \t\n", end), text.size());
   const bool goes_on = (indented || inside_brackets) && first < text.size() && !is_keyword(word) &&
-                       line.find("-->") == std::string_view::npos && text.compare(next, 3, "-->") != 0 && !begins_condition(line);
+                       line.find("-->") == std::string_view::npos && text.compare(next, 3, "-->") != 0 &&
+                       !begins_condition(line);
   cursor_.seek(goes_on ? first : before);
   return goes_on;
 }
@@ -238,13 +242,15 @@ ModuleParser::Predecessors ModuleParser::predecessors(Scope& scope) {
   return parts;
 }
 
-// A right context may hold brackets, balanced or not: it can lead into a branch, or out of the one that the predecessor is in.
+// A right context may hold brackets, balanced or not: it can lead into a branch, or out of the one that the predecessor is
+// in.
 void ModuleParser::check(const Predecessors& parts) const {
   const auto bracket = [](const FormalModule& module) { return module.name == "[" || module.name == "]"; };
   for (const FormalModule& module : parts.strict)
     if (bracket(module)) cursor_.fail_at(module.at, "'" + module.name + "'", "a predecessor that is no bracket");
   for (const FormalModule& module : parts.left)
-    if (bracket(module)) cursor_.fail_at(module.at, "'" + module.name + "' in a left context", "modules on the path to the root");
+    if (bracket(module))
+      cursor_.fail_at(module.at, "'" + module.name + "' in a left context", "modules on the path to the root");
 }
 
 // Behind the ':': `{statements} condition {statements}`, each of which may be missing, but not all.

@@ -1,7 +1,7 @@
 // A string of modules in cpfg notation.
-#include "lsystem/lsystem.h"
-
 #include <charconv>
+
+#include "lsystem/lsystem.h"
 
 namespace cambium {
 
@@ -47,7 +47,8 @@ std::string to_text(const ExplainedStep& step) {
   for (std::size_t begin = 0; begin < step.origins.size();) {
     const ExplainedStep::Origin origin = step.origins[begin];
     std::size_t end = begin + 1;
-    while (end < step.origins.size() && step.origins[end].parent == origin.parent && step.origins[end].rule == origin.rule) ++end;
+    while (end < step.origins.size() && step.origins[end].parent == origin.parent && step.origins[end].rule == origin.rule)
+      ++end;
     nothing_left_up_to(origin.parent);
     text += place_of(step, origin.rule) + "\t" + to_text(step.before, origin.parent, origin.parent + 1) + "\t" +
             to_text(step.after, begin, end) + "\n";

@@ -1,16 +1,17 @@
 #include "lsystem/rewriter.h"
 
-#include "lsystem/lineage.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <limits>
 #include <string>
 
+#include "lsystem/lineage.h"
+
 namespace cambium {
 namespace {
 
-// Operations of the stack machine, rules tried and modules stepped over between two looks at the cancel flag: a few milliseconds.
+// Operations of the stack machine, rules tried and modules stepped over between two looks at the cancel flag: a few
+// milliseconds.
 constexpr std::uint64_t kPollWork = 500'000;
 constexpr std::size_t kLongestRun = 1 << 16;  // modules copied in one go
 
@@ -43,7 +44,8 @@ void Rewriter::append_axiom(const System& system, std::uint64_t seed, std::size_
 }
 
 void Rewriter::fail_too_many(const Place& place) const {
-  throw InputError(located(program_.tables.files, place), "a string of more than " + std::to_string(max_modules_) + " modules",
+  throw InputError(located(program_.tables.files, place),
+                   "a string of more than " + std::to_string(max_modules_) + " modules",
                    "fewer derivation steps, or a larger limit");
 }
 
@@ -98,8 +100,8 @@ bool Rewriter::matches(const Production& production, const Site& site, ContextMa
   return production.condition.empty() || machine_.value(production.condition, locals) != 0.0;
 }
 
-// The first matching production; where that one has a weight, one of the matching weighted ones of its group, drawn by weight.
-// Leaves the chosen one's variables in locals_.
+// The first matching production; where that one has a weight, one of the matching weighted ones of its group, drawn by
+// weight. Leaves the chosen one's variables in locals_.
 const Production* Rewriter::choose(const RuleSet& rules, const Site& site, Stage stage, ContextMatcher& contexts) {
   candidates_.clear();
   candidate_locals_.clear();
@@ -110,7 +112,8 @@ const Production* Rewriter::choose(const RuleSet& rules, const Site& site, Stage
     const Production& production = rules.productions[number];
     ++machine_.work;
     random_.move_to_rule(++rule);
-    if (!candidates_.empty() && (production.weight.empty() || production.group != candidates_[0].production->group)) continue;
+    if (!candidates_.empty() && (production.weight.empty() || production.group != candidates_[0].production->group))
+      continue;
     if (!matches(production, site, contexts)) continue;
     if (production.weight.empty()) {
       random_.move_to_successor(rule);
@@ -118,7 +121,8 @@ const Production* Rewriter::choose(const RuleSet& rules, const Site& site, Stage
     }
     const double weight = machine_.value(production.weight, locals_.data());
     if (weight < 0.0)
-      throw InputError(located(program_.tables.files, production.weight_place), "a negative weight", "a weight of 0 or more");
+      throw InputError(located(program_.tables.files, production.weight_place), "a negative weight",
+                       "a weight of 0 or more");
     if (weight == 0.0) continue;
     total += weight;
     candidates_.push_back({&production, total, rule, candidate_locals_.size()});
@@ -133,8 +137,8 @@ const Production* Rewriter::draw() {
   while (chosen + 1 < candidates_.size() && drawn >= candidates_[chosen].weight) ++chosen;
   const Candidate& candidate = candidates_[chosen];
   random_.move_to_successor(candidate.rule);
-  std::copy_n(candidate_locals_.begin() + static_cast<std::ptrdiff_t>(candidate.first_local), candidate.production->local_count,
-              locals_.begin());
+  std::copy_n(candidate_locals_.begin() + static_cast<std::ptrdiff_t>(candidate.first_local),
+              candidate.production->local_count, locals_.begin());
   return candidate.production;
 }
 
@@ -241,7 +245,8 @@ class Rewriter::Rewriting {
     return at;
   }
 
-  // What [at, next) becomes, decomposed depth first: a rule's successor is decomposed before what stands behind its predecessor.
+  // What [at, next) becomes, decomposed depth first: a rule's successor is decomposed before what stands behind its
+  // predecessor.
   void decompose(std::size_t at, std::size_t next, const Production* production) {
     const Modules& in = input_.string;
     const Stage stage = input_.stage == Stage::kHomomorphism ? Stage::kHomomorphism : Stage::kDecomposition;
@@ -262,7 +267,8 @@ class Rewriter::Rewriting {
         continue;
       }
       const Production* rule = nullptr;
-      if (depth <= static_cast<std::size_t>(nested_->max_depth) && !nested_->of_symbol[level.modules.symbol[level.next]].empty())
+      if (depth <= static_cast<std::size_t>(nested_->max_depth) &&
+          !nested_->of_symbol[level.modules.symbol[level.next]].empty())
         rule = of_.choose(*nested_, {level.modules, level.next, *system_, at, next}, stage, contexts_);
       if (!rule) {
         of_.copy(level.modules, level.next, level.next + 1, out_);
@@ -318,12 +324,12 @@ class Rewriter::Rewriting {
   const LSystemProgram& program_;
   Modules& out_;
   ContextMatcher contexts_;
-  std::vector<const System*> callers_;        // the last one's rules hold
+  std::vector<const System*> callers_;  // the last one's rules hold
   const System* system_ = nullptr;
-  const RuleSet* direct_ = nullptr;           // null: the pass only decomposes
+  const RuleSet* direct_ = nullptr;  // null: the pass only decomposes
   const RuleSet* nested_ = nullptr;
-  std::vector<std::uint8_t> acts_;            // by symbol: it may not just be copied
-  std::size_t pending_ = 0;                   // modules in the levels of a decomposition
+  std::vector<std::uint8_t> acts_;  // by symbol: it may not just be copied
+  std::size_t pending_ = 0;         // modules in the levels of a decomposition
   std::uint64_t polled_at_ = 0;
   bool cancelled_ = false;
 };

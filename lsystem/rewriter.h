@@ -1,14 +1,14 @@
 // Rewriting of one stretch of a string by one thread.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "blobtree/run_options.h"
 #include "lsystem/bytecode.h"
 #include "lsystem/context.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/program.h"
-
-#include <cstdint>
-#include <vector>
 
 namespace cambium {
 
@@ -30,14 +30,19 @@ void clear(Modules& modules);
 /// How many parameters a string may have in all: 8 for each module that it may have, and no more than `first` can number.
 std::size_t most_parameters(std::size_t max_modules);
 
-/// Appends to a string what becomes of modules of another. Not shared by threads; several may share `variables` where no rule
-/// has effects.
+/// Appends to a string what becomes of modules of another. Not shared by threads; several may share `variables` where no
+/// rule has effects.
 class Rewriter {
  public:
-  /// `max_modules` is only what errors name: the limit is each call's.
+  /// `max_modules` is what errors name, and what limits parameters; modules are limited by each call.
   Rewriter(const LSystemProgram& program, std::vector<double>& variables, const RunOptions& run, std::size_t max_modules,
            const Printer* printer = nullptr)
-      : program_(program), run_(run), max_modules_(max_modules), random_(0), machine_(program.tables, random_, variables, printer), locals_(1, 0.0) {}
+      : program_(program),
+        run_(run),
+        max_modules_(max_modules),
+        random_(0),
+        machine_(program.tables, random_, variables, printer),
+        locals_(1, 0.0) {}
   Rewriter(const Rewriter&) = delete;
   Rewriter& operator=(const Rewriter&) = delete;
 
@@ -48,12 +53,12 @@ class Rewriter {
   /// As successor of no module, or as a block of statements: `which` tells its draws from others'.
   void append_axiom(const System& system, std::uint64_t seed, std::size_t limit, Modules& out);
   void run_block(const Code& code, std::uint64_t seed, std::uint64_t which);
-  std::uint64_t seed() const { return random_.seed(); }   ///< the last one given, or srand's
+  std::uint64_t seed() const { return random_.seed(); }  ///< the last one given, or srand's
 
   /// If set, rewrite() also notes where modules come from; rules are then productions.
   struct Origin {
     std::uint32_t parent;
-    const Production* rule;   ///< null: it stayed
+    const Production* rule;  ///< null: it stayed
   };
   std::vector<Origin>* origins = nullptr;
 
@@ -65,15 +70,15 @@ class Rewriter {
     std::size_t at;
     const System& system;
     std::size_t left_end;
-    std::size_t right_begin;   ///< 0: behind the predecessor
+    std::size_t right_begin;  ///< 0: behind the predecessor
   };
   struct Candidate {
     const Production* production;
-    double weight;             // with those before it
-    std::uint64_t rule;        // its number among those tried
+    double weight;       // with those before it
+    std::uint64_t rule;  // its number among those tried
     std::size_t first_local;
   };
-  struct Level {               // of a decomposition in progress
+  struct Level {  // of a decomposition in progress
     Modules modules;
     std::size_t next = 0;
     const Production* rule = nullptr;
@@ -98,7 +103,7 @@ class Rewriter {
   std::vector<double> candidate_locals_;
   std::vector<Level> levels_;
   std::size_t limit_ = 0;
-  Place last_place_;           // of the production applied last: where an error of a copied module points to
+  Place last_place_;  // of the production applied last: where an error of a copied module points to
 };
 
 }  // namespace cambium

@@ -10,8 +10,8 @@
 namespace cambium {
 namespace {
 
-constexpr std::size_t kChunk = 4096;          // modules: some 50 microseconds of work
-constexpr std::size_t kChunksPerThread = 8;   // of a wave: evens out chunks of unequal work
+constexpr std::size_t kChunk = 4096;         // modules: some 50 microseconds of work
+constexpr std::size_t kChunksPerThread = 8;  // of a wave: evens out chunks of unequal work
 
 template <class T>
 void append_all(const std::vector<T>& from, std::vector<T>& to) {
@@ -26,14 +26,16 @@ void append_modules(const Modules& from, Modules& to) {
   for (std::size_t i = 0; i < from.size(); ++i) to.first.push_back(from.first[i + 1] + shift);
 }
 
-// As many as `modules` and `parameters`, in one go: growth by doubling would stop everything for a while when the string is large.
+// As many as `modules` and `parameters`, in one go: growth by doubling would stop everything for a while when the string is
+// large.
 void reserve(Modules& out, double modules, double parameters) {
   if (static_cast<double>(out.symbol.capacity()) < modules) {
     out.symbol.reserve(static_cast<std::size_t>(modules));
     out.first.reserve(static_cast<std::size_t>(modules) + 1);
     out.key.reserve(static_cast<std::size_t>(modules));
   }
-  if (static_cast<double>(out.parameters.capacity()) < parameters) out.parameters.reserve(static_cast<std::size_t>(parameters));
+  if (static_cast<double>(out.parameters.capacity()) < parameters)
+    out.parameters.reserve(static_cast<std::size_t>(parameters));
 }
 
 // Extrapolates from `done` of `all` modules.
@@ -46,7 +48,8 @@ void reserve_for_rest(Modules& out, std::size_t done, std::size_t all, std::size
 
 }  // namespace
 
-RewritingPass::RewritingPass(const LSystemProgram& program, std::size_t max_modules, const RunOptions& run, const Printer* printer)
+RewritingPass::RewritingPass(const LSystemProgram& program, std::size_t max_modules, const RunOptions& run,
+                             const Printer* printer)
     : variables(program.initial_globals),
       program_(program),
       max_modules_(std::min<std::size_t>(max_modules, 4'000'000'000)),
@@ -73,7 +76,9 @@ bool RewritingPass::has_to_be_in_order(const Modules& in, Stage stage) const {
     if ((stage == Stage::kHomomorphism ? system.homomorphism : system.decomposition).in_order) return true;
     calls = calls || program_.systems.size() > 1;
   }
-  const auto holds = [&](std::uint16_t symbol) { return std::find(in.symbol.begin(), in.symbol.end(), symbol) != in.symbol.end(); };
+  const auto holds = [&](std::uint16_t symbol) {
+    return std::find(in.symbol.begin(), in.symbol.end(), symbol) != in.symbol.end();
+  };
   return (calls && holds(program_.call)) || (stage == Stage::kDerivation && holds(program_.cut));
 }
 
@@ -115,7 +120,7 @@ bool RewritingPass::in_one_chunk(const PassInput& input, Modules& out) {
     if (!first_.rewrite(input, begin, std::min(size, begin + step), max_modules_, out)) return false;
     reserve_for_rest(out, std::min(size, begin + step), size, max_modules_);
   }
-  seed = first_.seed();   // a production may have called srand
+  seed = first_.seed();  // a production may have called srand
   return true;
 }
 

@@ -1,26 +1,29 @@
 // Passes over a whole string by all threads, and the state that lasts from one to the next.
 //
-// How a derivation is fast. A string is four flat arrays, so a run of modules without rules is four block copies. A rule is found
-// through a table by symbol; its conditions and parameters are bytecode over doubles, constants folded. A pass only reads the old
-// string, contexts included, and a module's draws depend on its key alone: so the string is cut into chunks that any thread may
-// rewrite into a piece of its own, and the pieces, put together in order, are the same bytes for any number of threads. Chunks go
-// in waves, so that no more than a wave's pieces stand beside the two strings, and a limit is noticed within a wave.
+// How a derivation is fast. A string is four flat arrays, so a run of modules without rules is four block copies. A rule is
+// found through a table by symbol; its conditions and parameters are bytecode over doubles, constants folded. A pass only
+// reads the old string, contexts included, and a module's draws depend on its key alone: so the string is cut into chunks
+// that any thread may rewrite into a piece of its own, and the pieces, put together in order, are the same bytes for any
+// number of threads. Chunks go in waves, so that no more than a wave's pieces stand beside the two strings, and a limit is
+// noticed within a wave.
 //
-// Where order matters a pass is one chunk: rules with effects outside of their module (RuleSet::in_order, which predecessors of
-// several modules set as well, since a match decides where the next one begins), a `%`, which takes what follows it, and `?(n)`.
+// Where order matters a pass is one chunk: rules with effects outside of their module (RuleSet::in_order, which predecessors
+// of several modules set as well, since a match decides where the next one begins), a `%`, which takes what follows it, and
+// `?(n)`.
 #pragma once
-
-#include "lsystem/rewriter.h"
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "lsystem/rewriter.h"
+
 namespace cambium {
 
 class RewritingPass {
  public:
-  RewritingPass(const LSystemProgram& program, std::size_t max_modules, const RunOptions& run, const Printer* printer = nullptr);
+  RewritingPass(const LSystemProgram& program, std::size_t max_modules, const RunOptions& run,
+                const Printer* printer = nullptr);
 
   /// Starts with the axiom, undecomposed.
   void axiom(Modules& out);
@@ -28,13 +31,13 @@ class RewritingPass {
   bool rewrite(const Modules& in, Stage stage, Modules& out);
   /// The same by one thread, with the origins of what it makes.
   bool rewrite(const Modules& in, Stage stage, Modules& out, std::vector<Rewriter::Origin>& origins);
-  void run_block(Code System::*block, std::uint64_t which);   ///< of every L-system of the file
+  void run_block(Code System::*block, std::uint64_t which);  ///< of every L-system of the file
 
   std::uint64_t seed = 0;
   std::vector<double> variables;
 
  private:
-  struct Slot {            // for one chunk of a wave
+  struct Slot {  // for one chunk of a wave
     std::unique_ptr<Rewriter> rewriter;
     Modules piece;
     bool failed = false;
@@ -52,7 +55,7 @@ class RewritingPass {
   std::size_t max_modules_;
   RunOptions run_;
   int threads_;
-  Rewriter first_;             // for what one thread does
+  Rewriter first_;  // for what one thread does
   std::vector<Slot> slots_;
   BracketPairs brackets_;
 };

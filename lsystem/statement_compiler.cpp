@@ -44,7 +44,8 @@ bool ExpressionCompiler::is_assignment() {
   const char c = cursor_.peek();
   const bool compares = cursor_.peek(1) == '=' && (c == '=' || c == '!' || c == '<' || c == '>');
   const bool combines = cursor_.peek(1) == '=' && !compares;
-  const bool expression = c == '(' || c == ';' || compares || (std::string_view("+-*/%^<>?!&|").find(c) != std::string_view::npos && !combines);
+  const bool expression =
+      c == '(' || c == ';' || compares || (std::string_view("+-*/%^<>?!&|").find(c) != std::string_view::npos && !combines);
   cursor_.seek(begin);
   return c == '\0' || !expression;
 }

@@ -1,8 +1,8 @@
 #include "lsystem/array_definitions.h"
 
-#include "grammar.h"
-
 #include <gtest/gtest.h>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -12,8 +12,9 @@ using test::error_of;
 using test::grammar;
 
 TEST(ArrayDefinitions, SizesAndValuesAreConstantExpressions) {
-  const std::string text = "#define M 4\n" + grammar("A", "A --> B(a[2],b[1][0],b[0,1],c[3])",
-                                                     "define: {\n array a[M-1] = {1, -2, 2*3};\n array b[2][2] = {{1,2},{3,4}},\n c[M];\n}");
+  const std::string text =
+      "#define M 4\n" + grammar("A", "A --> B(a[2],b[1][0],b[0,1],c[3])",
+                                "define: {\n array a[M-1] = {1, -2, 2*3};\n array b[2][2] = {{1,2},{3,4}},\n c[M];\n}");
   EXPECT_EQ(derived_text(text, 1), "B(6,3,2,0)");
 }
 

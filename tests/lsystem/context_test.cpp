@@ -1,10 +1,10 @@
 #include "lsystem/context.h"
 
-#include "grammar.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -42,7 +42,7 @@ TEST(ContextMatcher, RightContextsFollowTheAxisAwayFromTheRoot) {
 
 TEST(ContextMatcher, ABracketInAContextIsTheBracketThatStandsThere) {
   EXPECT_EQ(derived_text(grammar("A[B]D", "A > [B]D --> X"), 1), "X[B]D");
-  EXPECT_EQ(derived_text(grammar("A[BC]D", "A > [B]D --> X"), 1), "A[BC]D");   // the branch goes on
+  EXPECT_EQ(derived_text(grammar("A[BC]D", "A > [B]D --> X"), 1), "A[BC]D");  // the branch goes on
   EXPECT_EQ(derived_text(grammar("A[B[C]]D", "A > [B]D --> X"), 1), "X[B[C]]D");
   EXPECT_EQ(derived_text(grammar("A[C][B]D", "A > [B]D --> X"), 1), "A[C][B]D");
   EXPECT_EQ(derived_text(grammar("A[C][B]D", "A > [C][B]D --> X"), 1), "X[C][B]D");
@@ -50,18 +50,20 @@ TEST(ContextMatcher, ABracketInAContextIsTheBracketThatStandsThere) {
 
 TEST(ContextMatcher, AnEqualsSignIsTheRestOfTheBranch) {
   EXPECT_EQ(derived_text(grammar("A[BC[E]F]D", "A > [B=]D --> X"), 1), "X[BC[E]F]D");
-  EXPECT_EQ(derived_text(grammar("I(0)[I(1)K][I(2)K]I(3)", "I(a) > [I(b)=][I(c)=]I(d) --> I(b+c+d)"), 1), "I(6)[I(1)K][I(2)K]I(3)");
+  EXPECT_EQ(derived_text(grammar("I(0)[I(1)K][I(2)K]I(3)", "I(a) > [I(b)=][I(c)=]I(d) --> I(b+c+d)"), 1),
+            "I(6)[I(1)K][I(2)K]I(3)");
 }
 
 TEST(ContextMatcher, ConsideredSymbolsAreSeenAndAllOthersSkipped) {
   EXPECT_EQ(derived_text(grammar("A[C]+B", "A > B --> X", "consider: AB[]"), 1), "X[C]+B");
   EXPECT_EQ(derived_text(grammar("A[B]C", "A > B --> X", "consider: AB[]"), 1), "A[B]C");
-  EXPECT_EQ(derived_text(grammar("A[B]C", "A > B --> X", "consider: AB"), 1), "X[B]C");   // brackets are not considered here
+  EXPECT_EQ(derived_text(grammar("A[B]C", "A > B --> X", "consider: AB"), 1), "X[B]C");  // brackets are not considered here
   EXPECT_EQ(derived_text(grammar("A~l(1)@Gc;(2)B", "A > B --> X", "ignore: ~@;"), 1), "X~l(1)@Gc;(2)B");
 }
 
 TEST(ContextMatcher, ParametersOfContextsAreBound) {
-  EXPECT_EQ(derived_text(grammar("A(1)B(2)C(3)D(4)", "A(a) B(b) < C(c) > D(d) --> X(a,b,c,d)"), 1), "A(1)B(2)X(1,2,3,4)D(4)");
+  EXPECT_EQ(derived_text(grammar("A(1)B(2)C(3)D(4)", "A(a) B(b) < C(c) > D(d) --> X(a,b,c,d)"), 1),
+            "A(1)B(2)X(1,2,3,4)D(4)");
   EXPECT_EQ(derived_text(grammar("A(1)C(3)", "A(a,b) < C(c) --> X"), 1), "A(1)C(3)");
 }
 
@@ -71,7 +73,7 @@ TEST(ContextMatcher, ARingsEndsMeet) {
   EXPECT_EQ(derived_text(turning, 4), "ABBB");
   EXPECT_EQ(derived_text(grammar("ABBB", "B > A --> A\nA --> B", "ring L-system: 1"), 1), "BBBA");
   EXPECT_EQ(derived_text(grammar("ABBB", "B > A --> A\nA --> B", "ring lsystem: 0"), 1), "BBBB");
-  EXPECT_EQ(derived_text(grammar("C", "D < C > D --> X", "ring lsystem"), 1), "C");   // once around, and no further
+  EXPECT_EQ(derived_text(grammar("C", "D < C > D --> X", "ring lsystem"), 1), "C");  // once around, and no further
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "lsystem/curve.h"
 
-#include "blobtree/input_error.h"
-#include "grammar.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "blobtree/input_error.h"
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -81,7 +81,8 @@ class CurvesBeside : public testing::Test {
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
   void write_flat(const std::string& name, int height) {
     const std::string y = std::to_string(height);
-    write(name + ".func", "fver 1 1\nname: " + name + "\nsamples: 0\nflip: off\npoints: 4\n0 " + y + "\n0.3 " + y + "\n0.6 " + y + "\n1 " + y + "\n");
+    write(name + ".func", "fver 1 1\nname: " + name + "\nsamples: 0\nflip: off\npoints: 4\n0 " + y + "\n0.3 " + y +
+                              "\n0.6 " + y + "\n1 " + y + "\n");
   }
   std::string derived() {
     write("tree.l", test::grammar("A", "A --> B(func(1,0.5))C(func(2,0.5))"));
@@ -118,7 +119,7 @@ TEST_F(CurvesBeside, WhatIsMissingIsAnError) {
   EXPECT_THROW(derived(), InputError);
   write("tree.v", "");
   write_flat("a", 10);
-  EXPECT_THROW(derived(), InputError);   // there is no second one
+  EXPECT_THROW(derived(), InputError);  // there is no second one
 }
 
 TEST_F(CurvesBeside, AModelWithoutFunctionsDoesNotReadThem) {

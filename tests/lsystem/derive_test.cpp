@@ -1,8 +1,8 @@
-#include "grammar.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -56,8 +56,9 @@ TEST(Derive, StopsWhenCancelled) {
 }
 
 TEST(Derive, ADeepChainOfBranchesNeedsNoCallStack) {
-  const LSystem system = parsed(grammar("A(0)", "A(n) : n < 18 --> A(n+1)A(n+1)\nA(n) : n == 18 --> [F"
-                                                "]F"));
+  const LSystem system = parsed(grammar("A(0)",
+                                        "A(n) : n < 18 --> A(n+1)A(n+1)\nA(n) : n == 18 --> [F"
+                                        "]F"));
   const ModuleString string = derived(system, 19);
   const Turtled turtled = interpret(string, system, {});
   EXPECT_EQ(turtled.skeleton.nodes.size(), (std::size_t{1} << 19) + 1);
@@ -69,7 +70,8 @@ TEST(Derive, QueriesAreAnsweredByTheTurtleBeforeEveryStep) {
   const std::string text = grammar("A?P(0,0,0)", "A > ?P(x,y,z) : z < 3 --> FA\nA > ?P(x,y,z) --> +(90)FA");
   EXPECT_EQ(derived_text(text, 2), "FFA?P(0,0,2)");
   EXPECT_EQ(derived_text(text, 5), "FFF+(90)F+(90)FA?P(-1,0,2)");
-  const ModuleString frame = derived(parsed(grammar("&(90)?H(0,0,0)?U(0,0,0)?L(0,0,0)?E(0,0,0)?P(1)", "A --> A\nhomomorphism\n& --> +F")), 1);
+  const ModuleString frame =
+      derived(parsed(grammar("&(90)?H(0,0,0)?U(0,0,0)?L(0,0,0)?E(0,0,0)?P(1)", "A --> A\nhomomorphism\n& --> +F")), 1);
   const double expected[] = {90, 0, 1, 0, 0, 0, -1, -1, 0, 0, 0, 0, 0, 1};
   for (std::size_t i = 0; i < 14; ++i) EXPECT_NEAR(frame.parameters[i], expected[i], 1e-12) << i;
 }

@@ -1,10 +1,10 @@
 #include "lsystem/lineage.h"
 
-#include "grammar.h"
-
 #include <gtest/gtest.h>
 
 #include <set>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -17,9 +17,9 @@ using test::parsed;
 TEST(Lineage, SlotsDependOnTheNameAndItsOccurrenceAlone) {
   const Modules first = derived(parsed(grammar("P", "P --> A[B]A")), 1);
   const Modules second = derived(parsed(grammar("P", "P --> XA(3)[YB]!A")), 1);
-  EXPECT_EQ(first.key[0], second.key[1]);   // the first A
-  EXPECT_EQ(first.key[2], second.key[4]);   // B
-  EXPECT_EQ(first.key[4], second.key[7]);   // the second A
+  EXPECT_EQ(first.key[0], second.key[1]);  // the first A
+  EXPECT_EQ(first.key[2], second.key[4]);  // B
+  EXPECT_EQ(first.key[4], second.key[7]);  // the second A
   EXPECT_NE(first.key[0], first.key[4]);
 }
 
@@ -56,7 +56,8 @@ TEST(Lineage, ADrawInTheRuleOfABranchChangesThatRulesBranchesOnly) {
   const std::string after = derived_text(grammar("T(4)", trunk + "B(n) : n > 0 --> g(ran(1)+ran(1))HB(n-1)"), 8, 5);
   const auto lengths = [](const std::string& text) {
     std::string out;
-    for (std::size_t at = text.find("f("); at != std::string::npos; at = text.find("f(", at + 1)) out += text.substr(at, text.find(')', at) - at);
+    for (std::size_t at = text.find("f("); at != std::string::npos; at = text.find("f(", at + 1))
+      out += text.substr(at, text.find(')', at) - at);
     return out;
   };
   EXPECT_NE(before, after);

@@ -1,6 +1,6 @@
-#include "grammar.h"
-
 #include <gtest/gtest.h>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -40,11 +40,13 @@ TEST(Rewriter, ACutTakesTheRestOfItsBranchAndItself) {
   EXPECT_EQ(derived_text(grammar("A%B", "% --> D\nB --> C"), 1), "ADC");  // a production comes first
 }
 
-// 16384 independent draws against the weights; chi-squared with 2 degrees of freedom stays below 13.8 in 99.9 % of all seeds.
+// 16384 independent draws against the weights; chi-squared with 2 degrees of freedom stays below 13.8 in 99.9 % of all
+// seeds.
 TEST(Rewriter, StochasticProductionsFollowTheirWeights) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    const LSystem all = parsed(grammar("D(14)", "D(n) : n > 0 --> D(n-1)D(n-1)\nD(n) : n == 0 --> X : 50\n"
-                                                "D(n) : n == 0 --> Y : 30\nD(n) : n == 0 --> Z : 20"));
+    const LSystem all = parsed(grammar("D(14)",
+                                       "D(n) : n > 0 --> D(n-1)D(n-1)\nD(n) : n == 0 --> X : 50\n"
+                                       "D(n) : n == 0 --> Y : 30\nD(n) : n == 0 --> Z : 20"));
     auto count = counts(derived(all, 15, seed));
     const double total = 16384;
     double chi_squared = 0;
@@ -58,8 +60,9 @@ TEST(Rewriter, StochasticProductionsFollowTheirWeights) {
 
 TEST(Rewriter, WeightsNormaliseOverTheMatchingProductions) {
   // Fractions that do not add up to 1, one production that does not match, one of weight 0.
-  const std::string text = grammar("D(12)", "D(n) : n > 0 --> D(n-1)D(n-1)\nD(n) : n == 0 --> X : 0.1\n"
-                                            "D(n) : n == 0 --> Y : 0.3\nD(n) : n < 0 --> Z : 9\nD(n) : n == 0 --> Z : 0");
+  const std::string text = grammar("D(12)",
+                                   "D(n) : n > 0 --> D(n-1)D(n-1)\nD(n) : n == 0 --> X : 0.1\n"
+                                   "D(n) : n == 0 --> Y : 0.3\nD(n) : n < 0 --> Z : 9\nD(n) : n == 0 --> Z : 0");
   auto count = counts(derived(parsed(text), 13, 5));
   EXPECT_EQ(count["Z"], 0u);
   EXPECT_NEAR(static_cast<double>(count["X"]) / 4096, 0.25, 0.03);
@@ -77,8 +80,10 @@ TEST(Rewriter, DrawsDoNotChangeBetweenVersions) {
 }
 
 TEST(Rewriter, AModuleThatStaysDrawsAnewInTheNextStep) {
-  // Each step a tenth of what is left goes; had a module always the same draw, those that survive one step would survive all.
-  const LSystem system = parsed(grammar("D(12)", "D(n) : n > 0 --> D(n-1)D(n-1)\nD(n) : n == 0 --> A\nA : ran(1) < 0.1 --> *"));
+  // Each step a tenth of what is left goes; had a module always the same draw, those that survive one step would survive
+  // all.
+  const LSystem system =
+      parsed(grammar("D(12)", "D(n) : n > 0 --> D(n-1)D(n-1)\nD(n) : n == 0 --> A\nA : ran(1) < 0.1 --> *"));
   const double start = 4096, left = static_cast<double>(derived(system, 23, 9).size());
   EXPECT_NEAR(left / start, std::pow(0.9, 10), 0.04);
 }

@@ -1,10 +1,10 @@
 #include "lsystem/rewriting_pass.h"
 
-#include "grammar.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -39,8 +39,11 @@ TEST(RewritingPass, TheStringIsTheSameForAnyNumberOfThreads) {
   const Row rows[] = {
       {"A(1)", "A(s) --> F(s)[+(ran(90))A(s/2)][-(60)A(s/2)]", 13, ""},
       {"A", "A --> F[+A]A : 0.7\nA --> FA[-A] : 0.3\nF --> FF", 12, ""},
-      {"A(0)", "A(n) --> B[&A(n+1)][^A(n)]\nB < A(n) : ran(1) < 0.9 --> FB[A(n)]A(n+1)\nB > [&=][^A(n)=] --> C(n)", 13, "ignore: &^"},
-      {"A", "A --> I(1)[+A]A\nI(x) > [+I(y)=]I(z) --> I(y+z)\ndecomposition\nmaximum depth: 4\nI(x) : ran(x) > 1 --> FI(x/2)", 13, "consider: I+[]"},
+      {"A(0)", "A(n) --> B[&A(n+1)][^A(n)]\nB < A(n) : ran(1) < 0.9 --> FB[A(n)]A(n+1)\nB > [&=][^A(n)=] --> C(n)", 13,
+       "ignore: &^"},
+      {"A",
+       "A --> I(1)[+A]A\nI(x) > [+I(y)=]I(z) --> I(y+z)\ndecomposition\nmaximum depth: 4\nI(x) : ran(x) > 1 --> FI(x/2)", 13,
+       "consider: I+[]"},
       {"AA", "A --> AB\nAA --> B[%A]A\nB --> AA", 17, ""},
       {"A", "A : { n = n+1; } * --> A[B(n)]A", 14, "Start: { n = 0; }"},
       {"A", "A --> A[A%B]A", 14, ""},
@@ -49,15 +52,17 @@ TEST(RewritingPass, TheStringIsTheSameForAnyNumberOfThreads) {
   for (const Row& row : rows) {
     const LSystem system = parsed(grammar(row.axiom, row.productions, row.settings));
     const ModuleString one = with_threads(system, row.steps, 1);
-    EXPECT_GT(one.size(), 10'000u) << row.productions;   // several waves of chunks
+    EXPECT_GT(one.size(), 10'000u) << row.productions;  // several waves of chunks
     for (const int threads : {2, 3, 7}) expect_equal(with_threads(system, row.steps, threads), one, row.productions);
   }
 }
 
 TEST(RewritingPass, ErrorsAreTheFirstInTheStringForAnyNumberOfThreads) {
-  const LSystem dividing = parsed(grammar("A(1)", "A(n) : n < 60000 --> A(2*n)A(2*n+1)\nA(n) : n > 90000 --> F(n/(n-n))\n"
-                                                  "A(n) --> F(1/(n-81234))G(1/(n-71234))"));
-  const LSystem growing = parsed(grammar("A(1)", "A(n) : n < 60000 --> A(2*n)A(2*n+1)\nA(n) : n > 70000 --> AAAAAA\nA(n) --> AA"));
+  const LSystem dividing = parsed(grammar("A(1)",
+                                          "A(n) : n < 60000 --> A(2*n)A(2*n+1)\nA(n) : n > 90000 --> F(n/(n-n))\n"
+                                          "A(n) --> F(1/(n-81234))G(1/(n-71234))"));
+  const LSystem growing =
+      parsed(grammar("A(1)", "A(n) : n < 60000 --> A(2*n)A(2*n+1)\nA(n) : n > 70000 --> AAAAAA\nA(n) --> AA"));
   for (const int threads : {1, 2, 5}) {
     RunOptions run;
     run.threads = threads;
@@ -68,7 +73,7 @@ TEST(RewritingPass, ErrorsAreTheFirstInTheStringForAnyNumberOfThreads) {
       ADD_FAILURE();
     } catch (const InputError& error) {
       EXPECT_EQ(error.location().line, 6) << threads;
-      EXPECT_EQ(error.location().column, 27) << threads;   // 71234 stands before 81234
+      EXPECT_EQ(error.location().column, 27) << threads;  // 71234 stands before 81234
     }
     options.max_modules = 131'000;
     try {
@@ -111,7 +116,8 @@ TEST(RewritingPass, ADecompositionThatExplodesIsStopped) {
 
 TEST(RewritingPass, ModulesTakeFourteenBytes) {
   const ModuleString string = with_threads(parsed(grammar("A", "A --> F[+A][-A]")), 16, 1);
-  const double bytes = static_cast<double>(string.symbol.capacity() * 2 + string.first.capacity() * 4 + string.key.capacity() * 8);
+  const double bytes =
+      static_cast<double>(string.symbol.capacity() * 2 + string.first.capacity() * 4 + string.key.capacity() * 8);
   EXPECT_LT(bytes / static_cast<double>(string.size()), 24);
 }
 
