@@ -81,9 +81,9 @@ struct ModuleString : Modules {
 /// Stochastic choices and draws are functions of (seed, the module's key): they depend on the module's line of descent alone, so
 /// an edited production changes the draws of what it makes and of nothing else.
 ///
-/// Costs about 60 ns of one thread per module of the result where each step doubles it. Uses run.threads where no production assigns to a variable of the
-/// L-system, calls srand or printf or has several modules for a predecessor, and the string has no `%` and no `?(n)`; the result
-/// is the same for any number of them. Looks at run.cancel every few milliseconds.
+/// Costs about 60 ns of one thread per module of the result where each step doubles the string. Uses run.threads where no
+/// production assigns to a variable of the L-system, calls srand or printf or has several modules for a predecessor, and the
+/// string has no `%` and no `?(n)`; the result is the same for any number of them. Looks at run.cancel every few milliseconds.
 /// nullopt if cancelled. Errors: InputError at the expression that is not finite, at the production that passes max_modules, for
 /// a negative weight, or if neither the file nor the options say how many steps.
 std::optional<ModuleString> derive(const LSystem& system, const DeriveOptions& options, const RunOptions& run);

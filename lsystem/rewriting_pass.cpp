@@ -1,49 +1,52 @@
 #include "lsystem/rewriting_pass.h"
 
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
+#include "lsystem/large_pages.h"
+
 namespace cambium {
 namespace {
 
-constexpr std::size_t kChunk = 4096;         // modules: some 50 microseconds of work
-constexpr std::size_t kChunksPerThread = 8;  // of a wave: evens out chunks of unequal work
+constexpr std::size_t kChunk = 8192;          // modules: a tenth of a millisecond of work
+constexpr std::size_t kChunksPerThread = 16;  // of a wave: evens out chunks of unequal work, and delays of a busy machine
 
 template <class T>
 void append_all(const std::vector<T>& from, std::vector<T>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-void append_modules(const Modules& from, Modules& to) {
-  const std::uint32_t shift = to.first.back();
-  append_all(from.symbol, to.symbol);
-  append_all(from.parameters, to.parameters);
-  append_all(from.key, to.key);
-  for (std::size_t i = 0; i < from.size(); ++i) to.first.push_back(from.first[i + 1] + shift);
+void append_first(const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
+  const std::uint32_t shift = to.back();
+  for (std::size_t i = 1; i < from.size(); ++i) to.push_back(from[i] + shift);
 }
 
-// As many as `modules` and `parameters`, in one go: growth by doubling would stop everything for a while when the string is
-// large.
+template <class T>
+void reserve(std::vector<T>& array, double size) {
+  if (static_cast<double>(array.capacity()) >= size) return;
+  array.reserve(static_cast<std::size_t>(1.1 * size) + 1);
+  ask_for_large_pages(array.data() + array.size(), (array.capacity() - array.size()) * sizeof(T));
+}
+
+// In one go: growth by doubling would stop everything for a while when the string is large.
 void reserve(Modules& out, double modules, double parameters) {
-  if (static_cast<double>(out.symbol.capacity()) < modules) {
-    out.symbol.reserve(static_cast<std::size_t>(modules));
-    out.first.reserve(static_cast<std::size_t>(modules) + 1);
-    out.key.reserve(static_cast<std::size_t>(modules));
-  }
-  if (static_cast<double>(out.parameters.capacity()) < parameters)
-    out.parameters.reserve(static_cast<std::size_t>(parameters));
+  reserve(out.symbol, modules);
+  reserve(out.first, modules + 1);
+  reserve(out.key, modules);
+  reserve(out.parameters, parameters);
 }
 
 // Extrapolates from `done` of `all` modules.
 void reserve_for_rest(Modules& out, std::size_t done, std::size_t all, std::size_t max_modules) {
   if (done == 0 || done >= all) return;
-  const double growth = 1.05 * static_cast<double>(all) / static_cast<double>(done);
-  reserve(out, std::min(growth * static_cast<double>(out.size()), static_cast<double>(max_modules)),
-          std::min(growth * static_cast<double>(out.parameters.size()), 2.0 * static_cast<double>(max_modules)));
+  const double growth = static_cast<double>(all) / static_cast<double>(done);
+  const auto most = static_cast<double>(max_modules);
+  reserve(out, std::min(growth * static_cast<double>(out.size()), most),
+          std::min(growth * static_cast<double>(out.parameters.size()), 2.0 * most));
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ bool RewritingPass::rewrite(const Modules& in, Stage stage, Modules& out, std::v
 bool RewritingPass::in_one_chunk(const PassInput& input, Modules& out) {
   const std::size_t size = input.string.size();
   const bool whole = first_.origins || has_to_be_in_order(input.string, input.stage);
-  const std::size_t step = whole ? std::max<std::size_t>(size, 1) : 16 * kChunk;
+  const std::size_t step = whole ? std::max<std::size_t>(size, 1) : 8 * kChunk;
   if (whole) reserve(out, static_cast<double>(size), static_cast<double>(input.string.parameters.size()));
   for (std::size_t begin = 0; begin < size; begin += step) {
     if (!first_.rewrite(input, begin, std::min(size, begin + step), max_modules_, out)) return false;
@@ -135,16 +138,46 @@ void RewritingPass::rewrite_chunk(const PassInput& input, std::size_t chunk, std
   }
 }
 
-// What failed is done again with the room that is really left, so that the error is the one that a single thread would meet.
-bool RewritingPass::append_piece(const PassInput& input, std::size_t chunk, Slot& slot, Modules& out) {
-  if (slot.cancelled) return false;
-  const bool too_long = out.size() + slot.piece.size() > max_modules_ ||
-                        out.parameters.size() + slot.piece.parameters.size() > most_parameters(max_modules_);
-  if (slot.failed || too_long) {
-    const std::size_t begin = chunk * kChunk;
-    return first_.rewrite(input, begin, std::min(input.string.size(), begin + kChunk), max_modules_, out);
+bool RewritingPass::fits(const Slot& slot, std::size_t modules, std::size_t parameters) const {
+  return !slot.failed && !slot.cancelled && modules + slot.piece.size() <= max_modules_ &&
+         parameters + slot.piece.parameters.size() <= most_parameters(max_modules_);
+}
+
+// How many slots from `begin` have pieces that may simply be appended to a string of so many modules and parameters.
+std::size_t RewritingPass::sound_slots(std::size_t begin, std::size_t end, std::size_t modules, std::size_t parameters) const {
+  std::size_t at = begin;
+  for (; at < end && fits(slots_[at], modules, parameters); ++at) {
+    modules += slots_[at].piece.size();
+    parameters += slots_[at].piece.parameters.size();
   }
-  append_modules(slot.piece, out);
+  return at - begin;
+}
+
+// Each array by a thread of its own: most of the time is the machine's, which hands out memory page by page.
+void RewritingPass::append_pieces(std::size_t begin, std::size_t end, Modules& out) const {
+  const auto each = [&](auto append) {
+    return [this, begin, end, append] {
+      for (std::size_t i = begin; i < end; ++i) append(slots_[i].piece);
+    };
+  };
+  tbb::parallel_invoke(each([&](const Modules& piece) { append_all(piece.key, out.key); }),
+                       each([&](const Modules& piece) { append_all(piece.parameters, out.parameters); }),
+                       each([&](const Modules& piece) { append_first(piece.first, out.first); }),
+                       each([&](const Modules& piece) { append_all(piece.symbol, out.symbol); }));
+}
+
+// A wave's pieces in order. What failed is done again with the room that is really left, so that the error is the one that a
+// single thread would meet.
+bool RewritingPass::append_wave(const PassInput& input, std::size_t first_chunk, std::size_t count, Modules& out) {
+  for (std::size_t at = 0; at < count; ++at) {
+    const std::size_t sound = sound_slots(at, count, out.size(), out.parameters.size());
+    append_pieces(at, at + sound, out);
+    at += sound;
+    if (at == count) break;
+    if (slots_[at].cancelled) return false;
+    const std::size_t begin = (first_chunk + at) * kChunk;
+    if (!first_.rewrite(input, begin, std::min(input.string.size(), begin + kChunk), max_modules_, out)) return false;
+  }
   return true;
 }
 
@@ -157,11 +190,11 @@ bool RewritingPass::in_waves(const PassInput& input, Modules& out) {
   for (std::size_t begin = 0; begin < chunks; begin += slots_.size()) {
     const std::size_t count = std::min(slots_.size(), chunks - begin);
     const std::size_t limit = max_modules_ - out.size();
-    arena.execute([&] {
+    const bool appended = arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { rewrite_chunk(input, begin + i, limit, slots_[i]); });
+      return append_wave(input, begin, count, out);
     });
-    for (std::size_t i = 0; i < count; ++i)
-      if (!append_piece(input, begin + i, slots_[i], out)) return false;
+    if (!appended) return false;
     reserve_for_rest(out, (begin + count) * kChunk, input.string.size(), max_modules_);
   }
   return true;

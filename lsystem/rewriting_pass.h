@@ -49,7 +49,10 @@ class RewritingPass {
   bool in_one_chunk(const PassInput& input, Modules& out);
   bool in_waves(const PassInput& input, Modules& out);
   void rewrite_chunk(const PassInput& input, std::size_t chunk, std::size_t limit, Slot& slot);
-  bool append_piece(const PassInput& input, std::size_t chunk, Slot& slot, Modules& out);
+  bool fits(const Slot& slot, std::size_t modules, std::size_t parameters) const;
+  std::size_t sound_slots(std::size_t begin, std::size_t end, std::size_t modules, std::size_t parameters) const;
+  void append_pieces(std::size_t begin, std::size_t end, Modules& out) const;
+  bool append_wave(const PassInput& input, std::size_t first_chunk, std::size_t count, Modules& out);
 
   const LSystemProgram& program_;
   std::size_t max_modules_;
