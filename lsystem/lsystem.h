@@ -81,7 +81,7 @@ struct ModuleString : Modules {
 /// Stochastic choices and draws are functions of (seed, the module's key): they depend on the module's line of descent alone, so
 /// an edited production changes the draws of what it makes and of nothing else.
 ///
-/// Costs about 60 ns of one thread per module of the result where each step doubles the string. Uses run.threads where no
+/// Costs 15 to 60 ns of one thread per module of the result where each step doubles the string. Uses run.threads where no
 /// production assigns to a variable of the L-system, calls srand or printf or has several modules for a predecessor, and the
 /// string has no `%` and no `?(n)`; the result is the same for any number of them. Looks at run.cancel every few milliseconds.
 /// nullopt if cancelled. Errors: InputError at the expression that is not finite, at the production that passes max_modules, for
