@@ -53,6 +53,7 @@ class PrimitiveStore {
   CompiledPrimitive operator[](std::size_t i) const;
   std::size_t size() const { return entries_.size(); }
   double radius(std::size_t i) const { return entries_[i].radius; }
+  double strength(std::size_t i) const { return entries_[i].strength; }
   void shrink_to_fit();
   std::size_t memory_bytes() const;
 

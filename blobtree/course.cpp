@@ -3,6 +3,9 @@
 // times 1 - (d.axis)^2 - 6 |slope| x. So one look at its middle bounds Y and Y' on the whole way, and with them
 // f = (1 - Y)^3 and f' = -3 (1 - Y)^2 Y'.
 //
+// Through a ball instead of along a way the second derivatives swing the slope by as much, since their matrix has no larger
+// eigenvalue than that, and the values are those of a distance.
+//
 // The flank: with phi the angle at the apex, Y is proportional to sin^2(phi), homogeneous of degree 0. Its second derivative in
 // the direction (a, b, c) along the ray from the apex, across it in the axial plane and around the axis is
 // 2/(r cos(phi))^2 (b^2 cos(2 phi) - a b sin(2 phi) + c^2 cos^2(phi)), r at the nearest axis point, whose eigenvalues are
@@ -30,10 +33,15 @@ SquaredRatio along_parabola(double y, double slope, double bend_lo, double bend_
 }
 
 /// From bounds of the distance over the support radius alone.
-SquaredRatio between(double lo, double hi, double fastest) {
+Interval square(double lo, double hi) {
   lo = std::max(0.0, lo * (1 - 1e-12));
   hi *= 1 + 1e-12;
-  return {{lo * lo, hi * hi}, {-2 * hi * fastest, 2 * hi * fastest}};
+  return {lo * lo, hi * hi};
+}
+SquaredRatio between(double lo, double hi, double fastest) {
+  const Interval value = square(lo, hi);
+  const double steepest = 2 * hi * (1 + 1e-12) * fastest;
+  return {value, {-steepest, steepest}};
 }
 
 double least_radius(const SweptSegment<double>& k) { return std::min(k.radius_at(k.begin), k.radius_at(k.end)); }
@@ -67,7 +75,10 @@ SquaredRatio squared_ratio(const SeenSegment& seen, const Way& way) {
     bend_hi = most;
     bend_lo = across > 0 ? 2 * kSquaredRadiusPerSupport * speed2 * across / (r_hi * r_hi) : -most * sine * sine / (1 - sine * sine);
   }
-  return along_parabola(seen.x * seen.x * kSquaredRadiusPerSupport, 2 * per_square * glm::dot(v, way.velocity), bend_lo, bend_hi, way.half);
+  SquaredRatio y =
+      along_parabola(seen.x * seen.x * kSquaredRadiusPerSupport, 2 * per_square * glm::dot(v, way.velocity), bend_lo, bend_hi, way.half);
+  if (way.wide) y.value = square((seen.x - seen.change) * kRadiusPerSupport, (seen.x + seen.change) * kRadiusPerSupport);
+  return y;
 }
 
 /// Whether its support surely passes the ball.
@@ -114,8 +125,11 @@ SquaredRatio squared_ratio(const CompiledPrimitive& p, const Way& way) {
           return between((d.value - reach) * inverse, (d.value + reach) * inverse, way.speed * inverse);
         }
         const double per_square = inverse * inverse;
-        return along_parabola(d.value * d.value * per_square, 2 * d.value * glm::dot(d.gradient, way.velocity) * per_square, 0,
-                              2 * per_square * way.speed * way.speed, way.half);
+        SquaredRatio y = along_parabola(d.value * d.value * per_square, 2 * d.value * glm::dot(d.gradient, way.velocity) * per_square, 0,
+                                        2 * per_square * way.speed * way.speed, way.half);
+        const double reach = way.half * way.speed;
+        if (way.wide) y.value = square((d.value - reach) * inverse, (d.value + reach) * inverse);
+        return y;
       },
       p.shape);
 }
@@ -229,6 +243,7 @@ Way inside(const Warp& warp, const Way& outside) {
   way.certain = outside.certain && ball.certain;
   const auto* const rigid = std::get_if<RigidWarp>(&warp);
   way.straight = outside.straight && rigid;
+  way.wide = outside.wide;
   if (way.straight) {
     way.middle = unwarp(warp, outside.middle);
     way.velocity = (outside.velocity * rigid->axes) / rigid->scale;
@@ -242,14 +257,21 @@ Way inside(const Warp& warp, const Way& outside) {
 }  // namespace
 
 Course Evaluator::course(const PrunedField& field, const Vec3& middle, const Vec3& direction, double half) {
+  return course({middle, half}, direction, false, field);
+}
+
+Course Evaluator::course(const PrunedField& field, const Ball& ball, const Vec3& direction) { return course(ball, direction, true, field); }
+
+Course Evaluator::course(const Ball& ball, const Vec3& direction, bool wide, const PrunedField& field) {
   if (field.empty()) return {};
   Scratch& s = *scratch_;
   const TapeView view = Scratch::view(field);
   s.shapes.gather(view.tree, view.tape);
   Way world;
-  world.middle = middle;
+  world.middle = ball.center;
   world.velocity = direction;
-  world.half = half * (1 + 1e-12) + 1e-15 * glm::length(middle);
+  world.half = ball.radius * (1 + 1e-12) + 1e-15 * glm::length(ball.center);
+  world.wide = wide;
   world.ball = {world.middle, world.half};
   s.ways.resize(view.frame_count());
   s.ways[0] = world;

@@ -18,6 +18,7 @@ struct Way {
   Vec3 middle{0.0}, velocity{0.0};   ///< the latter by metres in the world
   double half = 0;                   ///< metres in the world
   bool straight = true;
+  bool wide = false;       ///< also all ways parallel to it in the ball
   Ball ball;
   double speed = 1;                  ///< |velocity| at most
   bool certain = true;               ///< as UnwarpedBall's

@@ -138,6 +138,9 @@ class Evaluator {
   /// is a unit vector. As the way gets shorter the slopes close in on each other in proportion, but for creases, and under a
   /// bend, twist or taper, where they stay apart. Cost: about that of one interval.
   Course course(const PrunedField& field, const Vec3& middle, const Vec3& direction, double half);
+  /// The same of all ways in one direction through a ball, for the part of it inside field.box(): where the slope keeps its sign, at
+  /// most one sheet of the surface is there.
+  Course course(const PrunedField& field, const Ball& ball, const Vec3& direction);
 
   /// Batches: SoA floats relative to field.origin(), equal lengths. Agree with value()/sample() to 1e-4.
   void values(const PrunedField& field, std::span<const float> x, std::span<const float> y, std::span<const float> z,
@@ -152,6 +155,8 @@ class Evaluator {
   struct Scratch;  ///< private to blobtree/
 
  private:
+  Course course(const Ball& ball, const Vec3& direction, bool wide, const PrunedField& field);
+
   std::unique_ptr<Scratch> scratch_;
 };
 

@@ -33,6 +33,10 @@ bool is_plain_chain(const CompiledTree& tree, const Instruction& in) {
   return in.op == Op::kChain && in.frame == 0 && tree.chains[tree.nodes[in.node].payload].strength == 1;
 }
 
+bool is_plain_primitive(const CompiledTree& tree, const Instruction& in) {
+  return in.op == Op::kPrimitive && in.frame == 0 && tree.primitives.strength(tree.nodes[in.node].payload) == 1;
+}
+
 }  // namespace
 
 ActiveChain::ActiveChain(const CompiledTree& tree, const Tape& tape, std::size_t instruction) {
@@ -78,6 +82,15 @@ std::vector<ActiveChain> ActiveChain::blended(const PrunedField& field) {
     chains.push_back(ActiveChain(*field.tree_, *field.tape_, i));
   }
   return chains;
+}
+
+bool ActiveChain::only_blend(const PrunedField& field) {
+  if (field.empty()) return false;
+  const auto instructions = field.tape_->instructions();
+  return std::all_of(instructions.begin(), instructions.end(),
+                     [&](const Instruction& in) {
+                       return is_blend(in.op) || is_plain_chain(*field.tree_, in) || is_plain_primitive(*field.tree_, in);
+                     });
 }
 
 std::optional<LoneChain> LoneChain::of(const PrunedField& field) {

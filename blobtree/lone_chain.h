@@ -24,9 +24,10 @@ class ActiveChain {
   /// not warped, under sums, unions, contacts, forks and Ricci blends. Where all but one are 0 the field is that one's. None if
   /// the field is not like that. Cost: linear in the tape.
   static std::vector<ActiveChain> blended(const PrunedField& field);
-
   /// Whether the whole field, which `part` is pruned from, is like that all over a box. Cost: as Field::prune().
   static bool all_blend(const PrunedField& part, const Box& box);
+  /// Whether nothing is active but chains and other primitives of strength 1, not warped, under those operators. Cost: linear in the tape.
+  static bool only_blend(const PrunedField& field);
 
   std::uint32_t primitive() const { return primitive_; }   ///< as Contribution::primitive
   std::uint32_t branch() const { return branch_; }

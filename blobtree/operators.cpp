@@ -38,6 +38,16 @@ double largest_contact_push(const Interval& f, double width, double lip) {
   return contact_push(std::clamp(peak, lo, hi), width, lip);
 }
 
+namespace {
+
+/// Of a child beside one that is larger: outside it lifts, inside it does nothing.
+double least_contact_push(const Interval& f, double width, double lip) {
+  if (f.lo <= kIso - width || f.hi >= kIso) return 0;
+  return std::min(contact_push(f.lo, width, lip), contact_push(f.hi, width, lip));
+}
+
+}  // namespace
+
 Interval sum_of(const Interval* f, std::size_t n) {
   Interval total = f[0];
   for (std::size_t i = 1; i < n; ++i) total = {total.lo + f[i].lo, total.hi + f[i].hi};
@@ -93,10 +103,10 @@ Interval contact_of(const Interval* f, std::size_t n, bool with_zero, double wid
     offer(hi1, hi2, 0.0);
   }
   if (lo2 >= kIso) return {lo1, hi1};
-  // The value is never below the largest child, and each child is raised by no more than the other's largest push.
+  // The largest child is raised by the next one's push, but where both are inside, and either by no more than the other's largest push.
   const double pushed1 = hi1 + std::max(0.0, largest_contact_push({lo2, hi2}, width, lip));
   const double pushed2 = hi2 + largest_contact_push({lo1, hi1}, width, lip);
-  return widened({lo1, std::max(pushed1, pushed2)});
+  return widened({lo1 + least_contact_push({lo2, hi2}, width, lip), std::max(pushed1, pushed2)});
 }
 
 Interval lateral_contact_weight_interval(const Lateral& lateral, const Ball& ball) {

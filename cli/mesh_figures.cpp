@@ -68,6 +68,7 @@ void set_polygonize_figures(Job& job, const PolygonizeReport& report) {
   job.figures.set("rounds", report.rounds);
   job.figures.set("closed_voids", report.closed_voids);
   job.figures.set("crumbs", report.crumbs);
+  set_places(job, "left_out", report.left_out);
   set_places(job, "uncertain", report.uncertain);
   set_places(job, "unseen", report.unseen);
 }

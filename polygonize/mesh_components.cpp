@@ -122,6 +122,7 @@ std::optional<ComponentReport> drop_small_components(Mesh& mesh, double thicknes
     const std::uint32_t root = sets.root(v);
     const bool is_void = volume[root] < 0;
     gone[v] = is_void ? -2 * volume[root] < thickness * area[root] : area[root] < std::numbers::pi * crumb * crumb;
+    if (gone[v]) report.removed.push_back(mesh.positions[v]);
     if (root == v) ++(!gone[v] ? report.components : is_void ? report.closed_voids : report.crumbs);
   }
   if (report.closed_voids + report.crumbs > 0) remove_vertices(mesh, gone);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace cambium {
 
@@ -13,6 +14,7 @@ struct ComponentReport {
   std::size_t components = 0;      ///< that remain
   std::size_t closed_voids = 0;    ///< that were removed
   std::size_t crumbs = 0;          ///< likewise
+  std::vector<Vec3> removed;       ///< the vertices of both
 };
 
 /// Removes every component that encloses a void (negative volume) whose mean thickness, twice its volume over its area, is below

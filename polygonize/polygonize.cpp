@@ -1,11 +1,13 @@
 #include "polygonize/polygonize.h"
 
 #include "blobtree/input_error.h"
+#include "blobtree/lone_chain.h"
 #include "blobtree/progress_meter.h"
 #include "polygonize/contour_refiner.h"
 #include "polygonize/crowded_leaves.h"
 #include "polygonize/lattice.h"
 #include "polygonize/mesh_components.h"
+#include "polygonize/missed_surface.h"
 #include "polygonize/patch_polygons.h"
 #include "polygonize/thinnest_radius.h"
 #include "polygonize/tube_mesh.h"
@@ -16,7 +18,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 namespace cambium {
 namespace {
@@ -36,6 +40,25 @@ constexpr double kCellsAround = 8;    // a circle of one radius crosses so many 
 // From 5 to 16 the poplar takes 5.0 to 3.6 million triangles at 0.5 mm, but as many more rounds.
 constexpr double kSagitta = 8;
 constexpr int kFinestHalvings = 19;   // of the field's bounds
+
+constexpr double kPlaceTolerances = 4;   // the edge of cubes of which one place is reported
+
+/// Of those in one cube of a grid the first.
+std::vector<Vec3> one_a_cube(const std::vector<Vec3>& places, double edge) {
+  std::vector<Vec3> kept;
+  std::set<std::array<double, 3>> taken;
+  for (const Vec3& p : places)
+    if (taken.insert({std::floor(p.x / edge), std::floor(p.y / edge), std::floor(p.z / edge)}).second) kept.push_back(p);
+  return kept;
+}
+
+/// What remains of the doubts that there were before there were polygons: where primitives only blend they stay, elsewhere others are
+/// known since.
+std::vector<Vec3> settled_doubts(const SurfaceCover& cover, std::vector<Vec3> first, const std::vector<Vec3>& since, double tolerance) {
+  std::erase_if(first, [&](const Vec3& p) { return !ActiveChain::only_blend(cover.cube_field(*cover.find(p))); });
+  first.insert(first.end(), since.begin(), since.end());
+  return one_a_cube(first, kPlaceTolerances * tolerance);
+}
 
 struct Plan {
   LeafRule leaves;
@@ -98,6 +121,7 @@ std::vector<std::uint32_t> leaves_to_refine(const ContourRefiner& refiner, const
 struct Contouring {
   ContourRefiner refiner;
   VertexBalance balance;
+  MissedSurface missed;
 
   std::optional<DualMesh> polygons(const SurfaceCover& cover, const Plan& plan, const RunOptions& run) const {
     return build_polygons(refiner.tree(), cover, refiner.contour(), balance.positions(), balance.splits(), plan.tolerance, run);
@@ -111,13 +135,14 @@ std::optional<Contouring> begin_contouring(const SurfaceCover& cover, const Plan
   if (std::isfinite(plan.tolerance) && !show_unseen_surface(*tree, cover, report.unseen, run)) return std::nullopt;
   auto refiner = ContourRefiner::begin(*std::move(tree), cover, run);
   if (!refiner) return std::nullopt;
-  return Contouring{*std::move(refiner), VertexBalance(plan.tolerance)};
+  return Contouring{*std::move(refiner), VertexBalance(plan.tolerance), {}};
 }
 
-// Measures, and cuts the leaves of polygons that are off, until none is. False if cancelled.
+// Measures, and cuts the leaves of polygons that are off, then those of surface that no polygon is near, until there are none. False if
+// cancelled.
 bool refine(Contouring& contouring, const SurfaceCover& cover, const Plan& plan, PolygonizeReport& report, ProgressMeter& progress,
             const RunOptions& run) {
-  auto& [refiner, balance] = contouring;
+  auto& [refiner, balance, missed] = contouring;
   for (std::size_t round = 0;; ++round, ++report.rounds) {
     if (!refiner.place(run)) return false;
     if (!balance.update(refiner.tree(), cover, refiner.contour(), refiner.new_patches(), run)) return false;
@@ -125,6 +150,11 @@ bool refine(Contouring& contouring, const SurfaceCover& cover, const Plan& plan,
     std::vector<std::uint32_t> leaves;
     const double care = round < kLateRound ? kAim : kLateCare;
     if (round < kMostRounds) leaves = leaves_to_refine(refiner, balance, care * plan.tolerance);
+    if (leaves.empty() && std::isfinite(plan.tolerance)) {
+      auto found = missed.find(refiner.tree(), cover, refiner.contour(), {balance.positions(), balance.splits(), plan.tolerance}, run);
+      if (!found) return false;
+      leaves = *std::move(found);
+    }
     if (leaves.empty()) break;
     if (!refiner.split(std::move(leaves), run)) return false;
   }
@@ -163,6 +193,7 @@ std::optional<Built> build_mesh(const SurfaceCover& cover, const Plan& plan, Pol
     if (!added) return std::nullopt;
     if (added->failed.empty()) {
       progress.finish();
+      report.unseen = settled_doubts(cover, std::move(report.unseen), contouring->missed.uncertain(contouring->refiner.tree()), plan.tolerance);
       report.relinked_faces = contouring->refiner.relinked_faces();
       report.largest_error = std::max(largest_error(*contouring), added->largest_error);
       return Built{*std::move(contouring), *std::move(polygons)};
@@ -215,6 +246,7 @@ std::optional<Polygonized> polygonize_in_arena(const Field& field, const Polygon
   report.components = components->components;
   report.closed_voids = components->closed_voids;
   report.crumbs = components->crumbs;
+  report.left_out = one_a_cube(components->removed, kPlaceTolerances * std::min(plan.tolerance, thin));
   return result;
 }
 

@@ -33,9 +33,11 @@ struct PolygonizeReport {
   double largest_error = 0;                 ///< of a polygon, metres, where contouring measured it
   /// Where sheets are closer than the smallest cell allowed there, so that the mesh may join what is apart.
   std::vector<Vec3> uncertain;
-  /// Where wood thinner than the tolerance may be missing: what bounds the field there neither finds it nor rules it out. At most one a
-  /// cell. Not looked for with a given voxel.
+  /// Where wood thinner than the tolerance is missing, or may be: bounds of the field do not rule it out. One place in a cube of four
+  /// tolerances. Not looked for with a given voxel.
   std::vector<Vec3> unseen;
+  /// Where the cavities and crumbs left out were, likewise.
+  std::vector<Vec3> left_out;
 };
 
 struct Polygonized {

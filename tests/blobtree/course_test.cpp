@@ -100,6 +100,36 @@ TEST(Course, SlopesCloseInInProportionToTheWay) {
   EXPECT_GT(closer, 170);
 }
 
+TEST(Course, ThroughABallHoldsTheValuesAndChordsOfAllWaysInThatDirection) {
+  Evaluator evaluator;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Field field(random_blobtree(seed, 4));
+    if (field.bounds().empty()) continue;
+    Draws draws(seed);
+    for (int i = 0; i < 12; ++i) {
+      const PrunedField pruned = field.prune(draws.box(field.bounds()));
+      const Box& box = pruned.box();
+      const Vec3 size = box.size(), direction = draws.direction();
+      const Ball ball{draws.point(box), 0.5 * std::min({size.x, size.y, size.z}) * std::pow(10.0, draws.in(-3, 0))};
+      const Course course = evaluator.course(pruned, ball, direction);
+      for (int k = 0; k < 24; ++k) {
+        const Vec3 p = ball.center + draws.in(0, 1) * ball.radius * draws.direction();
+        const double step = draws.in(0.01, 1) * (std::sqrt(std::max(0.0, ball.radius * ball.radius - glm::dot(p - ball.center, p - ball.center) +
+                                                                              std::pow(glm::dot(p - ball.center, direction), 2))) -
+                                                 glm::dot(p - ball.center, direction));
+        const Vec3 q = p + step * direction;
+        if (!box.contains(p) || !box.contains(q)) continue;
+        const double at_p = evaluator.value(pruned, p), at_q = evaluator.value(pruned, q);
+        ASSERT_GE(at_p, course.value.lo) << "tree " << seed;
+        ASSERT_LE(at_p, course.value.hi) << "tree " << seed;
+        const double rounding = 1e-13 + 4e-16 * glm::length(p) * std::max(std::abs(course.slope.lo), std::abs(course.slope.hi));
+        ASSERT_GE(at_q - at_p, course.slope.lo * step - rounding) << "tree " << seed << " of " << pruned.atom_count();
+        ASSERT_LE(at_q - at_p, course.slope.hi * step + rounding) << "tree " << seed << " of " << pruned.atom_count();
+      }
+    }
+  }
+}
+
 TEST(Course, OfNothingIsNothing) {
   Evaluator evaluator;
   const Course course = evaluator.course({}, {0, 0, 0}, {1, 0, 0}, 1);

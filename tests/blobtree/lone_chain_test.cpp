@@ -124,5 +124,24 @@ TEST(LoneChain, ItsSegmentsSweepTheSurfaceOfEveryCellItIsIn) {
   EXPECT_GT(lone_cells, cover->size() / 2);
 }
 
+TEST(LoneChain, WhatIsWarpedWeakOrTakenAwayDoesNotOnlyBlend) {
+  EXPECT_TRUE(ActiveChain::only_blend(forked().whole()));
+  EXPECT_TRUE(ActiveChain::only_blend(single(kTrunk).whole()));
+  EXPECT_FALSE(ActiveChain::only_blend(PrunedField{}));
+  BlobTreeBuilder knotted;
+  const NodeId stem = knotted.add(kTrunk), knot = knotted.add(Sphere{{0.1, 0, 1}, 0.05, 1}), dent = knotted.add(Sphere{{-0.1, 0, 1}, 0.05, -1});
+  const Field bumpy(knotted.build(knotted.add(Sum{{stem, knot, dent}})));
+  EXPECT_FALSE(ActiveChain::only_blend(bumpy.whole()));
+  EXPECT_TRUE(ActiveChain::only_blend(bumpy.prune({{0.1, -0.05, 0.95}, {0.2, 0.05, 1.05}}))) << "the dent is not here";
+  BlobTreeBuilder b;
+  const NodeId trunk = b.add(kTrunk), limb = b.add(kLimb);
+  const Field cut(b.build(b.add(Difference{{trunk, limb}})));
+  EXPECT_FALSE(ActiveChain::only_blend(cut.whole()));
+  EXPECT_TRUE(ActiveChain::only_blend(cut.prune({{-0.2, -0.2, 0.2}, {0.2, 0.2, 0.3}}))) << "the limb is not here";
+  Chain weak = kTrunk;
+  weak.strength = 0.5;
+  EXPECT_FALSE(ActiveChain::only_blend(single(weak).whole()));
+}
+
 }  // namespace
 }  // namespace cambium

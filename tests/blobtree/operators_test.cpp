@@ -59,6 +59,23 @@ TEST(Contact, OfTwoOutsideEachOtherIsPairwise) {
   }
 }
 
+TEST(Contact, BoundsOverASmallBoxAreCloseAroundTheValue) {
+  const Parts parts{{Sphere{{-0.15, 0, 0}, 0.2, 1}, Sphere{{0.15, 0, 0}, 0.25, 1}}};
+  const Field contact = parts.combined([](auto ids) { return Contact{ids, 0.4, 1.5}; });
+  const auto alone = parts.alone();
+  Draws draws(4);
+  int lifted = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 p = draws.point(contact.bounds());
+    const double f = contact.value(p);
+    const Interval bounds = contact.interval({p - 1e-7, p + 1e-7});
+    ASSERT_TRUE(bounds.contains(f));
+    ASSERT_LT(bounds.hi - bounds.lo, 1e-4);
+    lifted += f > std::max(alone[0].value(p), alone[1].value(p)) + 0.01;
+  }
+  EXPECT_GT(lifted, 20);
+}
+
 TEST(Contact, OfOneIsItself) {
   const Parts parts{{Sphere{{0, 0, 0}, 0.2, -0.7}}};
   EXPECT_EQ(parts.combined([](auto ids) { return Contact{ids, 0.5, 1}; }).value({0, 0, 0}), -0.7);

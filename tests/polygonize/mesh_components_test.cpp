@@ -38,6 +38,8 @@ TEST(MeshComponents, OnlyThinVoidsAreRemoved) {
   ASSERT_TRUE(report.has_value());
   EXPECT_EQ(report->closed_voids, 1u);
   EXPECT_EQ(report->components, 3u);
+  ASSERT_EQ(report->removed.size(), 4u) << "the corners of the bubble";
+  for (const Vec3& p : report->removed) EXPECT_LT(glm::length(p - (far + 1.0)), 0.02);
   const auto checks = testing::check_mesh(mesh);
   EXPECT_TRUE(checks.closed_manifold()) << checks;
   EXPECT_EQ(checks.components, 3u);

@@ -1,0 +1,315 @@
+#include "polygonize/missed_surface.h"
+
+#include "blobtree/lone_chain.h"
+#include "polygonize/mesh_distance.h"
+#include "polygonize/ordered_chunks.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace cambium {
+namespace {
+
+constexpr double kFar = 1.8;               // from the polygons, in tolerances: these are measured to be within one, but at a few places
+constexpr double kFinest = 0.5;            // the smallest cubes, in tolerances, or down to half of that
+constexpr double kMostCubes = 8;           // of one leaf, for each of the smallest on a face: bounds of warped fields tell little
+constexpr std::size_t kLeavesPerTask = 64;
+
+using PlacedPolygons = MissedSurface::PlacedPolygons;
+
+struct Cube {
+  CellPlace place;
+  int level;
+};
+
+Cube part_of(const Cube& cube, std::uint32_t child) {
+  Cube part{cube.place, cube.level - 1};
+  for (int a = 0; a < 3; ++a) part.place[a] += (child >> a & 1) << part.level;
+  return part;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  for (int k = 0; k < 3; ++k)
+    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
+  return true;
+}
+
+/// The living patches of each leaf.
+class PatchesOfLeaves {
+ public:
+  PatchesOfLeaves(const Contour& contour, std::size_t leaves) : first_(leaves + 1, 0) {
+    for (const Patch& patch : contour.patches)
+      if (patch.alive()) ++first_[patch.leaf + 1];
+    for (std::size_t i = 0; i < leaves; ++i) first_[i + 1] += first_[i];
+    patches_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t p = 0; p < contour.patches.size(); ++p)
+      if (contour.patches[p].alive()) patches_[next[contour.patches[p].leaf]++] = p;
+  }
+  std::span<const std::uint32_t> of(std::uint32_t leaf) const { return {patches_.data() + first_[leaf], first_[leaf + 1] - first_[leaf]}; }
+
+ private:
+  std::vector<std::uint32_t> first_, patches_;
+};
+
+/// The polygons near a leaf. Scratch.
+class PolygonsNearby {
+ public:
+  PolygonsNearby(const SurfaceOctree& tree, const Contour& contour, const PlacedPolygons& placed, const PatchesOfLeaves& patches)
+      : tree_(tree), contour_(contour), placed_(placed), positions_(placed.positions), patches_(patches) {}
+
+  /// Those around the vertices of the leaves that reach into a box.
+  void gather(const Box& box) {
+    vertices_.clear();
+    edges_.clear();
+    triangles_.clear();
+    visit(tree_.root(), {{0, 0, 0}, tree_.root_level()}, box);
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    for (const std::uint32_t e : edges_) add_polygon(e);
+  }
+  /// Infinite if there are none.
+  double distance(const Vec3& p) const {
+    double least = kInfinity;
+    for (const Triangle& t : triangles_) {
+      const double possible = least + t.around.radius;
+      const Vec3 away = p - t.around.center;
+      if (glm::dot(away, away) < possible * possible) least = std::min(least, std::sqrt(distance2_to_triangle(p, t.a, t.b, t.c)));
+    }
+    return least;
+  }
+  double distance_to_vertex(const Vec3& p, const Box& in) const {
+    double least = kInfinity;
+    for (const Vec3& v : vertices_)
+      if (in.contains(v)) least = std::min(least, glm::dot(v - p, v - p));
+    return std::sqrt(least);
+  }
+
+ private:
+  struct Triangle {
+    Vec3 a, b, c;
+    Ball around;
+  };
+
+  void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 middle = (a + b + c) / 3.0;
+    triangles_.push_back({a, b, c, {middle, std::max({glm::length(a - middle), glm::length(b - middle), glm::length(c - middle)})}});
+  }
+
+  void visit(SurfaceOctree::Node node, const Cube& cube, const Box& box) {
+    if (node.is_void() || !overlap(tree_.grid().box(cube.place, cube.level), box)) return;
+    if (node.has_children()) {
+      for (std::uint32_t c = 0; c < 8; ++c) visit(tree_.child(node, static_cast<int>(c)), part_of(cube, c), box);
+      return;
+    }
+    for (const std::uint32_t p : patches_.of(node.leaf())) {
+      vertices_.push_back(positions_[p]);
+      const auto ring = contour_.ring(p);
+      edges_.insert(edges_.end(), ring.begin(), ring.end());
+    }
+  }
+
+  void add_polygon(std::uint32_t e) {
+    const auto& patches = contour_.patch_of_quadrant[e];
+    if (std::find(patches.begin(), patches.end(), kNoPatch) != patches.end()) return;   // the surface ends here
+    const Ring ring = ring_of(contour_.edges[e], patches);
+    const auto corner = [&](int k) { return positions_[ring.patches[k % ring.count]]; };
+    const Split split = placed_.splits[e] ? *placed_.splits[e] : split_of(tree_, contour_, e, ring, positions_, placed_.tolerance);
+    if (split == Split::kFan) {
+      const Vec3 center = crossing_point(tree_, contour_, e);
+      for (int k = 0; k < ring.count; ++k) add_triangle(center, corner(k), corner(k + 1));
+    } else {
+      const int first = split == Split::kSecond ? 1 : 0;
+      for (int k = 2; k < ring.count; ++k) add_triangle(corner(first), corner(first + k - 1), corner(first + k));
+    }
+  }
+
+  const SurfaceOctree& tree_;
+  const Contour& contour_;
+  const PlacedPolygons& placed_;
+  const std::vector<Vec3>& positions_;
+  const PatchesOfLeaves& patches_;
+  std::vector<Vec3> vertices_;
+  std::vector<std::uint32_t> edges_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace
+
+struct MissedSurface::Found {
+  std::vector<std::uint32_t> leaves;   // to be cut
+  std::vector<Doubt> doubts;
+};
+
+/// Looks through one leaf after another. Scratch of one thread.
+class MissedSurface::Search {
+ public:
+  Search(const SurfaceOctree& tree, const SurfaceCover& cover, const PolygonsNearby& polygons, double tolerance, const RunOptions& run)
+      : tree_(tree), cover_(cover), polygons_(polygons), tolerance_(tolerance), run_(run) {
+    while (std::ldexp(tree.grid().cell, finest_ + 1) <= kFinest * tolerance) ++finest_;
+  }
+
+  void look_through(std::uint32_t leaf, Found& found) {
+    const OctreeLeaf& l = tree_.leaves()[leaf];
+    field_ = cover_.cube_field(l.cell);
+    const Box box = tree_.box(l);
+    if (l.uniform() ? is_bare(box) : falls_throughout(circumscribed_ball(box))) return;
+    polygons_.gather(box.padded(2 * tolerance_));
+    cubes_ = 0;
+    most_cubes_ = static_cast<int>(kMostCubes * std::pow(4.0, std::max(l.level - finest_, 3)));
+    places_.clear();
+    if (look_into({l.place, l.level}) && l.level > 0) return found.leaves.push_back(leaf);
+    for (const Vec3& place : places_) found.doubts.push_back({leaf, place});
+  }
+
+ private:
+  bool is_bare(const Box& box) { return !evaluator_.interval(field_, box).contains(kIso); }
+
+  Vec3 uphill(const Vec3& p) {
+    const Vec3 gradient = evaluator_.sample(field_, p).gradient;
+    const double slope = glm::length(gradient);
+    return slope > 0 ? gradient / slope : Vec3(0.0);
+  }
+
+  /// The way it falls in the middle: then no wedge of wood or air is sharper than a right angle there.
+  bool falls_throughout(const Ball& ball) { return evaluator_.course(field_, ball, uphill(ball.center)).slope.lo > 0; }
+
+  /// Whether there is no surface in a ball, or one sheet at most that a vertex near by is on.
+  bool is_settled(const Ball& ball) {
+    const Vec3 up = uphill(ball.center);
+    const Course course = evaluator_.course(field_, ball, up);
+    if (!course.value.contains(kIso)) return true;
+    if (!(course.slope.lo > 0)) return false;
+    const double reach = polygons_.distance_to_vertex(ball.center, field_.box());
+    return reach <= ball.radius || (reach < kInfinity && evaluator_.course(field_, {ball.center, reach}, up).slope.lo > 0);
+  }
+
+  /// Whether no slope leads from the middle of a ball to the surface in it. Where fields take from each other their slopes cancel, and
+  /// bounds of their values do not.
+  bool is_out_of_reach(const Ball& ball) {
+    double steepest2 = 0;
+    for (int a = 0; a < 3; ++a) {
+      Vec3 along(0.0);
+      along[a] = 1;
+      const Interval slope = evaluator_.course(field_, ball, along).slope;
+      const double steepest = std::max(-slope.lo, slope.hi);
+      steepest2 += steepest * steepest;
+    }
+    return std::abs(evaluator_.value(field_, ball.center) - kIso) > std::sqrt(steepest2) * ball.radius;
+  }
+
+  /// True as soon as surface is found that must be shown.
+  bool look_into(const Cube& cube) {
+    const Box box = tree_.grid().box(cube.place, cube.level);
+    if (run_.cancelled()) return false;
+    if (++cubes_ > most_cubes_) return places_.push_back(box.center()), false;
+    if (is_bare(box)) return false;
+    const Ball ball = circumscribed_ball(box);
+    const double distance = polygons_.distance(ball.center);
+    if (distance + ball.radius <= kFar * tolerance_) return false;
+    if (is_settled(ball)) return false;
+    const bool is_last = cube.level <= finest_;
+    if (is_out_of_reach(ball)) return false;
+    if (is_last || distance - ball.radius > kFar * tolerance_) {
+      const Kinds kinds = kinds_in(box);
+      if (kinds.thick_wood && kinds.thick_air) return places_.push_back(ball.center), true;
+      if (is_last && kinds.may_hide_wood()) places_.push_back(ball.center);
+    }
+    if (is_last) return false;
+    for (std::uint32_t c = 0; c < 8; ++c)
+      if (look_into(part_of(cube, c))) return true;
+    return false;
+  }
+
+  bool is_inside(const Vec3& p) { return evaluator_.value(field_, p) >= kIso; }
+
+  /// Whether the wood or air that a point is in is no thinner beside it than what leaves can show.
+  bool is_thick(const Vec3& beside, bool inside) {
+    const Vec3 p = beside + (inside ? 0.5 : -0.5) * tree_.narrow() * uphill(beside);
+    if (is_inside(p) != inside) return false;
+    for (int a = 0; a < 3; ++a)
+      for (const double side : {-0.5, 0.5}) {
+        Vec3 q = p;
+        q[a] += 0.98 * side * tree_.narrow();
+        if (is_inside(q) != inside) return false;
+      }
+    return true;
+  }
+
+  /// What is seen of a cube at its corners and in its middle.
+  struct Kinds {
+    bool wood = false, air = false;
+    bool thick_wood = false, thick_air = false;   // looked for only where there are both
+    /// All wood, or thick wood and a gap that is too narrow: what is hidden is air.
+    bool may_hide_wood() const { return !wood || (air && !thick_wood); }
+  };
+  Kinds kinds_in(const Box& box) {
+    std::array<Vec3, 9> places;
+    std::array<bool, 9> inside{};
+    Kinds kinds;
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      places[c] = box.center();
+      for (int a = 0; a < 3 && c < 8; ++a) places[c][a] = c >> a & 1 ? box.hi[a] : box.lo[a];
+      inside[c] = is_inside(places[c]);
+      (inside[c] ? kinds.wood : kinds.air) = true;
+    }
+    if (!kinds.wood || !kinds.air) return kinds;
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      bool& thick = inside[c] ? kinds.thick_wood : kinds.thick_air;
+      thick = thick || is_thick(places[c], inside[c]);
+    }
+    return kinds;
+  }
+
+  const SurfaceOctree& tree_;
+  const SurfaceCover& cover_;
+  PolygonsNearby polygons_;
+  double tolerance_;
+  const RunOptions& run_;
+  Evaluator evaluator_;
+  PrunedField field_;
+  int finest_ = 0;
+  int cubes_ = 0, most_cubes_ = 0;
+  std::vector<Vec3> places_;
+};
+
+std::optional<std::vector<std::uint32_t>> MissedSurface::find(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour,
+                                                              const PlacedPolygons& placed, const RunOptions& run) {
+  const std::size_t first = std::exchange(first_new_, tree.leaves().size());
+  auto listed = in_chunks<std::vector<std::uint32_t>>(first_new_ - first, 4096, [&](auto& part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = first + begin; i < first + end; ++i) {
+      const OctreeLeaf& leaf = tree.leaves()[i];
+      if (!ActiveChain::only_blend(cover.cube_field(leaf.cell)) && tree.find(leaf.place) == i) part.push_back(static_cast<std::uint32_t>(i));
+    }
+  });
+  std::vector<std::uint32_t> leaves, to_cut;
+  append_parts(listed, leaves);
+  if (leaves.empty()) return to_cut;
+  const PatchesOfLeaves patches(contour, tree.leaves().size());
+  const PolygonsNearby polygons(tree, contour, placed, patches);
+  tbb::enumerable_thread_specific<Search> searches([&] { return Search(tree, cover, polygons, placed.tolerance, run); });
+  const auto parts = in_chunks<Found>(leaves.size(), kLeavesPerTask, [&](Found& part, std::size_t begin, std::size_t end) {
+    Search& search = searches.local();
+    for (std::size_t i = begin; i < end && !run.cancelled(); ++i) search.look_through(leaves[i], part);
+  });
+  if (run.cancelled()) return std::nullopt;
+  for (const Found& part : parts) {
+    to_cut.insert(to_cut.end(), part.leaves.begin(), part.leaves.end());
+    doubts_.insert(doubts_.end(), part.doubts.begin(), part.doubts.end());
+  }
+  return to_cut;
+}
+
+std::vector<Vec3> MissedSurface::uncertain(const SurfaceOctree& tree) const {
+  std::vector<Vec3> places;
+  for (const Doubt& doubt : doubts_)
+    if (tree.find(tree.leaves()[doubt.leaf].place) == doubt.leaf) places.push_back(doubt.place);
+  return places;
+}
+
+}  // namespace cambium
