@@ -13,8 +13,9 @@ namespace cambium {
 class ArrayDefinitions {
  public:
   /// `earlier`: names of the L-systems before this one. `values`: initial values of all variables so far; grows.
-  ArrayDefinitions(Cursor& cursor, Scope& scope, const std::vector<const SystemNames*>& earlier, std::vector<double>& values)
-      : cursor_(cursor), scope_(scope), names_(*scope.system), earlier_(earlier), values_(values) {}
+  ArrayDefinitions(Cursor& cursor, SystemNames& names, const std::vector<const SystemNames*>& earlier,
+                   std::vector<double>& values)
+      : cursor_(cursor), names_(names), earlier_(earlier), values_(values) {}
 
   void read();
 
@@ -27,7 +28,6 @@ class ArrayDefinitions {
   void check_new(const std::string& name, std::size_t at) const;
 
   Cursor& cursor_;
-  Scope& scope_;
   SystemNames& names_;
   const std::vector<const SystemNames*>& earlier_;
   std::vector<double>& values_;

@@ -172,7 +172,7 @@ class Parser {
       cursor_.advance();
       std::vector<const SystemNames*> earlier;
       for (std::size_t i = 0; i + 1 < names_.size(); ++i) earlier.push_back(names_[i].get());
-      ArrayDefinitions(cursor_, scope_, earlier, program_->initial_globals).read();
+      ArrayDefinitions(cursor_, *scope_.system, earlier, program_->initial_globals).read();
     } else if (keyword == "axiom") {
       if (axiom_seen_) cursor_.fail_at(begin, "a second axiom", "one");
       axiom_seen_ = true;
