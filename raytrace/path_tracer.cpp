@@ -61,7 +61,7 @@ bool PathTracer::blocked(Walk& walk, const Ray& ray, double distance) const {
 /// The tree's surface where it was hit. With `seen`, as the camera sees it, and what it sees is noted there.
 PathTracer::Vertex PathTracer::bark_vertex(Walk& walk, const Ray& ray, const SurfaceHit& hit, double footprint,
                                            CameraSample* seen) const {
-  const PrunedField field = tracer_.cover().field(hit.cell);
+  const PrunedField field = tracer_.cover().field(tracer_.cell(ray, hit));
   const Vec3 p = glm::clamp(ray.at(hit.t), field.box().lo, field.box().hi);
   Vec3 normal = hit.normal;
   const bool fine = seen && options_.relief;

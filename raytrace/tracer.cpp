@@ -19,7 +19,7 @@ namespace cambium {
 namespace {
 
 constexpr std::size_t kMostCells = 4000000;   // beyond, the hierarchy would take more memory than it saves time
-constexpr double kCellRadii = 3.2;            // half of this is as fast, and takes twice the memory
+constexpr double kCellRadii = 5;              // half of this is as fast, and takes three times the memory
 constexpr double kDeep = 1e-3;                // of f: far more than a root may be off
 constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::size_t kMostWaiting = 24;
@@ -250,8 +250,10 @@ struct Tracer::Scene {
 
   /// Deep inside there are no cells: a ray that begins where none is, and comes first to a place that is deep too, has been inside
   /// from the start.
-  bool began_inside(const Query& query, std::optional<std::uint32_t> cell, const Vec3& p) const {
+  bool began_inside(const Query& query, const SurfaceHit& hit) const {
     if (query.t == 0 || !bounds.contains(query.ray.origin) || cover.find(query.ray.origin)) return false;
+    const Vec3 p = query.ray.at(query.t);
+    const std::optional<std::uint32_t> cell = hit.analytic ? cell_at(p, hit.radius) : hit.found_in;
     if (!cell) return true;
     const PrunedField field = cover.field(*cell);
     return query.evaluator.value(field, glm::clamp(p, field.box().lo, field.box().hi)) > kIso + kDeep;
@@ -259,18 +261,23 @@ struct Tracer::Scene {
 
   SurfaceHit hit_of(const Query& query) const {
     const Vec3 p = query.ray.at(query.t);
-    if (query.on_segment != kNone) {
-      const ChainSegments& segments = chains.segments();
-      const Vec3 normal = segments.normal(query.on_segment, p);
-      const double radius = segments.radius(query.on_segment, p);
-      const auto cell = cell_at(p, radius);
-      return {began_inside(query, cell, p) ? 0 : query.t, cell.value_or(segments[query.on_segment].cell), true, normal, radius};
+    SurfaceHit hit;
+    hit.t = query.t;
+    hit.analytic = query.on_segment != kNone;
+    if (hit.analytic) {
+      hit.found_in = query.on_segment;
+      hit.normal = chains.segments().normal(query.on_segment, p);
+      hit.radius = chains.segments().radius(query.on_segment, p);
+    } else {
+      const PrunedField field = cover.field(query.cell);
+      const Vec3 gradient = query.evaluator.sample(field, glm::clamp(p, field.box().lo, field.box().hi)).gradient;
+      const double steepness = glm::length(gradient);
+      hit.found_in = query.cell;
+      hit.normal = steepness > 0 ? -gradient / steepness : -query.ray.direction;
+      hit.radius = radius_in(field);
     }
-    const PrunedField field = cover.field(query.cell);
-    const Vec3 gradient = query.evaluator.sample(field, glm::clamp(p, field.box().lo, field.box().hi)).gradient;
-    const double steepness = glm::length(gradient);
-    return {began_inside(query, query.cell, p) ? 0 : query.t, query.cell, false,
-            steepness > 0 ? -gradient / steepness : -query.ray.direction, radius_in(field)};
+    if (began_inside(query, hit)) hit.t = 0;
+    return hit;
   }
 };
 
@@ -305,6 +312,11 @@ std::optional<SurfaceHit> Tracer::intersect(Evaluator& evaluator, const Ray& ray
   scene_->search_waiting(query);
   if (!query.found()) return std::nullopt;
   return scene_->hit_of(query);
+}
+
+std::uint32_t Tracer::cell(const Ray& ray, const SurfaceHit& hit) const {
+  if (!hit.analytic) return hit.found_in;
+  return scene_->cell_at(ray.at(hit.t), hit.radius).value_or(scene_->chains.segments()[hit.found_in].cell);
 }
 
 bool Tracer::occluded(Evaluator& evaluator, const Ray& ray, double t_end) const {

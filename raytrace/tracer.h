@@ -12,8 +12,8 @@ namespace cambium {
 
 struct SurfaceHit {
   double t = 0;             ///< metres along the ray
-  std::uint32_t cell = 0;   ///< index of the cell that holds it
   bool analytic = false;    ///< on a chain's own solid: solved in closed form
+  std::uint32_t found_in = 0;   ///< for Tracer::cell(): the number of that solid, or of the cell
   Vec3 normal{0.0};         ///< outward unit normal; against the ray where the field has none
   double radius = 0;        ///< of the branch, metres: on a chain's own solid that of the axis nearest, else the smallest in the cell
 };
@@ -38,6 +38,8 @@ class Tracer {
 
   /// The nearest surface point with t > 0 (t = 0 where the ray starts inside); solved in double, whatever Embree does in float.
   std::optional<SurfaceHit> intersect(Evaluator& evaluator, const Ray& ray) const;
+  /// The cell of the cover that holds the place that intersect() found. Cost: a binary search if it is analytic.
+  std::uint32_t cell(const Ray& ray, const SurfaceHit& hit) const;
   /// Whether anything stands before t_end. Who starts so deep inside that no cell is there, and ends before the first, meets nothing.
   bool occluded(Evaluator& evaluator, const Ray& ray, double t_end = kInfinity) const;
 
