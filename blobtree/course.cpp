@@ -48,16 +48,15 @@ double least_radius(const SweptSegment<double>& k) { return std::min(k.radius_at
 
 SeenSegment seen(const SweptSegment<double>& k, const Way& way) {
   const Vec3 q = way.middle - k.a;
-  const double s = closest_parameter(k, q), r = k.radius_at(s);
+  const double s = closest_parameter(k, q), r = k.radius_at(s), per_r = 1 / r, least = least_radius(k);
   const Vec3 v = q - s * k.axis;
-  return {&k, s, std::sqrt(glm::dot(v, v)) / r, way.half * way.speed / least_radius(k)};
+  return {&k, v, r, per_r, std::sqrt(glm::dot(v, v)) * per_r, least, way.half * way.speed / least};
 }
 
 SquaredRatio squared_ratio(const SeenSegment& seen, const Way& way) {
   const SweptSegment<double>& k = *seen.segment;
-  const double r = k.radius_at(seen.s), per_square = kSquaredRadiusPerSupport / (r * r), reach = way.half * way.speed;
+  const double r = seen.r, per_square = kSquaredRadiusPerSupport * seen.per_r * seen.per_r, reach = way.half * way.speed;
   const double speed2 = way.speed * way.speed, along = glm::dot(way.velocity, k.axis);
-  const Vec3 v = way.middle - k.a - seen.s * k.axis;
   double bend_lo = 0, bend_hi = 0;
   if (k.slope == 0) {
     bend_lo = 2 * per_square * std::max(0.0, speed2 - along * along);   // a ball's, where one is nearest, is more
@@ -65,18 +64,18 @@ SquaredRatio squared_ratio(const SeenSegment& seen, const Way& way) {
   } else {
     const double x_hi = seen.x + seen.change, sine = x_hi * std::abs(k.slope);
     if (sine > kSteepestTaper) {
-      return between((seen.x - seen.change) * kRadiusPerSupport, x_hi * kRadiusPerSupport, way.speed * kRadiusPerSupport / least_radius(k));
+      return between((seen.x - seen.change) * kRadiusPerSupport, x_hi * kRadiusPerSupport, way.speed * kRadiusPerSupport / seen.least);
     }
     // The nearest axis point moves by at most 1 + tan^2(phi) < 2 of the way.
     const double change = 2 * reach * std::abs(k.slope);
-    const double r_lo = std::max(least_radius(k), r - change), r_hi = r + change;
+    const double r_lo = std::max(seen.least, r - change), r_hi = r + change;
     const double most = 2 * kSquaredRadiusPerSupport * speed2 / (r_lo * r_lo);
-    const double across = 1 - along * along / speed2 - 6 * sine;
+    const double across = speed2 * (1 - 6 * sine) - along * along;
     bend_hi = most;
-    bend_lo = across > 0 ? 2 * kSquaredRadiusPerSupport * speed2 * across / (r_hi * r_hi) : -most * sine * sine / (1 - sine * sine);
+    bend_lo = across > 0 ? 2 * kSquaredRadiusPerSupport * across / (r_hi * r_hi) : -most * sine * sine / (1 - sine * sine);
   }
-  SquaredRatio y =
-      along_parabola(seen.x * seen.x * kSquaredRadiusPerSupport, 2 * per_square * glm::dot(v, way.velocity), bend_lo, bend_hi, way.half);
+  SquaredRatio y = along_parabola(seen.x * seen.x * kSquaredRadiusPerSupport, 2 * per_square * glm::dot(seen.v, way.velocity), bend_lo,
+                                  bend_hi, way.half);
   if (way.wide) y.value = square((seen.x - seen.change) * kRadiusPerSupport, (seen.x + seen.change) * kRadiusPerSupport);
   return y;
 }

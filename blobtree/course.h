@@ -32,9 +32,11 @@ struct SquaredRatio {
 
 /// A segment of a chain as the middle of a straight way sees it.
 struct SeenSegment {
-  const SweptSegment<double>* segment = nullptr;
-  double s = 0, x = 0;     ///< the nearest axis point, and the swept ratio
-  double change = 0;       ///< of the ratio along the way, at most
+  const SweptSegment<double>* segment;
+  Vec3 v;                  ///< from the nearest axis point
+  double r, per_r;         ///< the radius there, and 1 over it
+  double x;                ///< the swept ratio
+  double least, change;    ///< the segment's least radius; the ratio's change along the way, at most
 };
 
 /// The operators of field.md section 4 over the courses of their active children, as in operators.h.
