@@ -146,21 +146,27 @@ void ChainCells::narrow(Cell& cell) {
   if (!narrowed.empty()) keep_active(cell);
 }
 
-// Of the narrowed cell, in place: fewer than there were, so that no cell's entries move into another's.
+// Of the narrowed cell, in place: no more than there were. Chains of few segments come first: where a ray passes them, and so cannot be
+// where two chains are, the others need not be looked at.
 void ChainCells::keep_active(Cell& cell) {
   const std::span<Entry> entries = std::span(entries_).subspan(cell.first, cell.count);
-  std::size_t kept = 0;
-  std::uint32_t chains = 0;
+  std::vector<std::vector<Entry>> chains;
   bool starts_chain = false;
+  cell.all_wood = true;
   for (const Entry& entry : entries) {
     starts_chain = starts_chain || entry.starts_chain;
-    if (solid_bounds(widened(segments_[entry.segment].swept, kSupport), cell.box).empty()) continue;
-    chains += starts_chain;
-    entries[kept++] = {entry.segment, starts_chain, entry.reaches};
+    const ChainSegment& segment = segments_[entry.segment];
+    if (solid_bounds(widened(segment.swept, kSupport), cell.box).empty()) continue;
+    if (starts_chain) chains.emplace_back();
+    chains.back().push_back({entry.segment, starts_chain, entry.reaches});
     starts_chain = false;
+    cell.all_wood = cell.all_wood && segment.is_wood;
   }
-  cell.count = static_cast<std::uint32_t>(kept);
-  cell.chains = chains;
+  std::stable_sort(chains.begin(), chains.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  auto to = entries.begin();
+  for (const std::vector<Entry>& chain : chains) to = std::copy(chain.begin(), chain.end(), to);
+  cell.count = static_cast<std::uint32_t>(to - entries.begin());
+  cell.chains = static_cast<std::uint32_t>(chains.size());
 }
 
 ChainVerdict ChainCells::meet_lone(std::span<const Entry> entries, const Ray& ray, const RaySegment& part) const {
@@ -185,12 +191,17 @@ ChainVerdict ChainCells::judge(std::size_t k, const Ray& ray, const RaySegment& 
   Overlap overlap;
   MostOfChains most;
   RaySegment active = kNowhere;   // of the chain at hand
+  std::uint32_t passed = 0;       // chains that are nowhere active on the part
   const auto finish_chain = [&] {
     if (active.begin <= active.end) overlap.add(active);
+    else ++passed;
     active = kNowhere;
   };
   for (const Entry& entry : entries) {
-    if (entry.starts_chain) finish_chain();
+    if (entry.starts_chain && &entry != &entries.front()) {
+      finish_chain();
+      if (passed + 1 >= cell.chains && cell.all_wood) return {};
+    }
     const ChainSegment& segment = segments_[entry.segment];
     const double support = kSupport * segment.thickest;
     if (look.passes(segment, support)) continue;

@@ -49,6 +49,7 @@ class ChainCells {
     std::uint32_t cell = 0;
     std::uint32_t chains = 0;                 ///< active in the cell
     std::uint32_t first = 0, count = 0;       ///< of their segments in entries_, chain after chain
+    bool all_wood = false;                    ///< all of these
   };
   /// A segment in a cell.
   struct Entry {
