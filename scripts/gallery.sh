@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# Makes the pictures of docs/gallery.md again, docs/gallery/*.jpg: one of every recipe in examples/lsystems/.
+set -euo pipefail
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+"$top/scripts/build.sh" --target cambium
+mkdir -p "$top/docs/gallery"
+for recipe in "$top"/examples/lsystems/*.tree.toml; do
+  "$top/build/cambium" render "$recipe" -o "$top/docs/gallery/$(basename "$recipe" .tree.toml).jpg"
+done
