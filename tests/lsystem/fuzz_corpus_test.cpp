@@ -15,7 +15,7 @@ namespace {
 
 TEST(FuzzCorpus, EveryInputIsReadOrRefused) {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(CAMBIUM_LSYSTEM_MODELS "/../corpus")) {
+  for (const auto& entry : std::filesystem::directory_iterator(CAMBIUM_LSYSTEM_CORPUS)) {
     std::ifstream stream(entry.path(), std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();

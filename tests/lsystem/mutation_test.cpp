@@ -47,7 +47,7 @@ std::string mutated(std::string text, const std::vector<std::string>& seeds, std
 
 TEST(Mutation, BrokenGrammarsOnlyEverThrowInputErrors) {
   const std::vector<std::string> seeds = {
-      text_of(CAMBIUM_LSYSTEM_MODELS "/abop_2_6a.l"), text_of(CAMBIUM_LSYSTEM_MODELS "/abop_2_8d.l"),
+      text_of(CAMBIUM_EXAMPLES "/lsystems/abop_2_6a.l"), text_of(CAMBIUM_EXAMPLES "/lsystems/abop_2_8d.l"),
       text_of(CAMBIUM_EXAMPLES "/poplar.l"),
       "#define M(a,b) ((a)+(b))\n#ifdef M\nlsystem: x\nseed: 3\nderivation length: 3\nignore: +-\n"
       "define: { array t[2,2] = {{1,2},{3,4}}; }\nStart: { g = 1; for (i = 0; i < 3; i = i + 1) g *= 2; }\n"
