@@ -92,7 +92,16 @@ bool TubeJoin::add_with_chords(Tube& tube, std::uint32_t first, double chord_sha
     }
     tube.triangles.push_back({names[corners[0]], names[corners[1]], names[corners[2]]});
   }
-  return keeps_to_surface(tube, begin) && (is_graph() || !crosses(tube, begin));
+  return keeps_to_surface(tube, begin) && ((is_straight(lowest) && is_graph()) || !crosses(tube, begin, first));
+}
+
+// From the ring to the farthest place of the open end.
+bool TubeJoin::is_straight(double lowest) const {
+  const double other = ring_.at + (at_end_ ? -lowest : lowest);
+  const std::size_t first = path_.segment_at(std::min(ring_.at, other)), last = path_.segment_at(std::max(ring_.at, other));
+  bool straight = true;
+  for (std::size_t k = first; k < last; ++k) straight = straight && glm::dot(path_.direction(k), path_.direction(k + 1)) > kHardlyBent;
+  return straight;
 }
 
 // What stands out over a chord is to be no more than the tolerance, nor may it reach much farther around than a ring's sides. On a
@@ -101,11 +110,7 @@ ChordExcess TubeJoin::chord_excess(double lowest, double chord_share) const {
   const double most = chord_share * tolerance_, bow = std::min(most / radius_, 1.0);
   const double widest = radius_ * std::min(2 * std::acos(1 - bow), 1.5 * kTurn / ring_.sides);
   const auto around = [widest](const glm::dvec2& a, const glm::dvec2& b) { return std::abs(a.x - b.x) / widest; };
-  const double other = ring_.at + (at_end_ ? -lowest : lowest);
-  const std::size_t first = path_.segment_at(std::min(ring_.at, other)), last = path_.segment_at(std::max(ring_.at, other));
-  bool straight = true;
-  for (std::size_t k = first; k < last; ++k) straight = straight && glm::dot(path_.direction(k), path_.direction(k + 1)) > kHardlyBent;
-  if (straight) return around;
+  if (is_straight(lowest)) return around;
   return [this, around, most](const glm::dvec2& a, const glm::dvec2& b) {
     const Vec3 middle = (rolled(a).position + rolled(b).position) / 2.0;
     const double s = ring_.at + (at_end_ ? -1 : 1) * (a.y + b.y) / 2;
@@ -120,8 +125,8 @@ bool TubeJoin::keeps_to_surface(const Tube& tube, std::size_t begin) const {
   });
 }
 
-// Triangles at the open end face away from the axis at every corner: seen from the axis none hides another, and the lines between what
-// does not cross unrolled do not either.
+// Triangles at the open end face away from the axis at every corner: seen from a straight axis none hides another, and the lines between
+// what does not cross unrolled do not either.
 bool TubeJoin::is_graph() const {
   return std::all_of(triangles_.begin(), triangles_.end(), [&](std::uint32_t t) {
     const Triangle& corners = mesh_.triangles[t];
@@ -133,8 +138,9 @@ bool TubeJoin::is_graph() const {
   });
 }
 
-// Exactly: what was added against itself and against the mesh at the open end.
-bool TubeJoin::crosses(const Tube& tube, std::size_t begin) const {
+// Exactly: what was added against itself, against the mesh at the open end, and against the tube's walls at the ring, which begins
+// with `first`.
+bool TubeJoin::crosses(const Tube& tube, std::size_t begin, std::uint32_t first) const {
   std::vector<Vec3> positions;
   std::vector<std::uint32_t> names;   // of these
   std::vector<Triangle> triangles;
@@ -157,6 +163,9 @@ bool TubeJoin::crosses(const Tube& tube, std::size_t begin) const {
   for (std::size_t t = begin; t < tube.triangles.size(); ++t) add(tube.triangles[t]);
   const std::size_t added = triangles.size();
   for (const std::uint32_t t : triangles_) add(mesh_.triangles[t]);
+  const auto is_of_ring = [&](std::uint32_t vertex) { return vertex >= first && vertex - first < ring_.sides; };
+  for (std::size_t t = 0; t < begin; ++t)
+    if (std::any_of(tube.triangles[t].begin(), tube.triangles[t].end(), is_of_ring)) add(tube.triangles[t]);
   for (std::size_t s = 0; s < added; ++s)
     for (std::size_t t = s + 1; t < triangles.size(); ++t)
       if (boxes[s].intersects(boxes[t]) && triangles_meet_wrongly(positions, triangles[s], triangles[t])) return true;

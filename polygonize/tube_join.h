@@ -47,10 +47,11 @@ class TubeJoin {
   ChainPath::SurfacePoint rolled(const glm::dvec2& point) const;
   bool unroll_line(std::vector<glm::dvec2>& line, std::vector<std::uint32_t>& names) const;
   bool add_with_chords(Tube& tube, std::uint32_t first, double chord_share) const;
+  bool is_straight(double lowest) const;
   ChordExcess chord_excess(double lowest, double chord_share) const;
   bool keeps_to_surface(const Tube& tube, std::size_t begin) const;
   bool is_graph() const;
-  bool crosses(const Tube& tube, std::size_t begin) const;
+  bool crosses(const Tube& tube, std::size_t begin, std::uint32_t first) const;
 
   const ChainPath& path_;
   TubeRing ring_;

@@ -118,6 +118,13 @@ TEST(CorpusOfOld, NestsThatOnceLostSurfaceSilentlyMeshOrReportIt) {
   }
 }
 
+// The tube's joins ran through its walls where the chain bends sharply just before its end.
+TEST(CorpusOfOld, ANestWhoseTubeOnceCrossedItselfDoesNot) {
+  SCOPED_TRACE("tree 1847");
+  const Field field(corpus_tree(1847));
+  expect_shippable(field, tolerance_of(field));
+}
+
 INSTANTIATE_TEST_SUITE_P(Slices, Corpus, ::testing::Range(std::uint64_t{0}, kCases));
 
 }  // namespace
