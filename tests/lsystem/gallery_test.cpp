@@ -1,12 +1,12 @@
 // examples/lsystems/ and the page that shows it. The counts of the published figures are in published_models_test.cpp.
-#include "grammar.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {

@@ -1,10 +1,10 @@
 // The numbers of lsystem.md, "Numbers that must come out exactly". ABOP's figures are the files of the gallery.
-#include "grammar.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
+
+#include "grammar.h"
 
 namespace cambium {
 namespace {
@@ -15,7 +15,9 @@ using test::derived_text;
 using test::grammar;
 using test::parsed;
 
-LSystem model(const std::string& name) { return LSystem::load(std::filesystem::path(CAMBIUM_EXAMPLES "/lsystems") / (name + ".l")); }
+LSystem model(const std::string& name) {
+  return LSystem::load(std::filesystem::path(CAMBIUM_EXAMPLES "/lsystems") / (name + ".l"));
+}
 
 ModuleString derived_as_written(const LSystem& system) { return derive(system, {}, {}).value(); }
 
@@ -48,14 +50,15 @@ TEST(PublishedModels, EveryFigureHasItsModules) {
   struct Counts {
     std::size_t modules, f;
   };
-  // A ternary tree's A becomes 3 A and 16 other modules, 4 of them F: after n steps 3 + 3^n + 8 (3^n - 1) modules, 2 * 3^n - 1 F.
+  // A ternary tree's A becomes 3 A and 16 other modules, 4 of them F. So after n steps there are 3 + 3^n + 8 (3^n - 1)
+  // modules, 2 * 3^n - 1 of them F.
   const std::map<std::string, Counts> rows = {
-      {"abop_1_24a", {7811, 3125}},   {"abop_1_24b", {9373, 3125}},   {"abop_1_24c", {11116, 4096}},
-      {"abop_1_24d", {13956, 4118}},  {"abop_1_24e", {12863, 4118}},  {"abop_1_24f", {6263, 1488}},
-      {"abop_1_25", {77399, 3891}},   {"abop_2_6a", {7162, 1023}},    {"abop_2_6b", {7162, 1023}},
-      {"abop_2_6c", {7162, 1023}},    {"abop_2_6d", {7162, 1023}},    {"abop_2_7a", {11253, 1023}},
-      {"abop_2_7b", {11253, 1023}},   {"abop_2_7c", {11253, 1023}},   {"abop_2_7d", {11253, 1023}},
-      {"abop_2_8a", {6556, 1457}},    {"abop_2_8b", {59044, 13121}},  {"abop_2_8c", {59044, 13121}},
+      {"abop_1_24a", {7811, 3125}},  {"abop_1_24b", {9373, 3125}},  {"abop_1_24c", {11116, 4096}},
+      {"abop_1_24d", {13956, 4118}}, {"abop_1_24e", {12863, 4118}}, {"abop_1_24f", {6263, 1488}},
+      {"abop_1_25", {77399, 3891}},  {"abop_2_6a", {7162, 1023}},   {"abop_2_6b", {7162, 1023}},
+      {"abop_2_6c", {7162, 1023}},   {"abop_2_6d", {7162, 1023}},   {"abop_2_7a", {11253, 1023}},
+      {"abop_2_7b", {11253, 1023}},  {"abop_2_7c", {11253, 1023}},  {"abop_2_7d", {11253, 1023}},
+      {"abop_2_8a", {6556, 1457}},   {"abop_2_8b", {59044, 13121}}, {"abop_2_8c", {59044, 13121}},
       {"abop_2_8d", {6556, 1457}},
   };
   std::size_t figures = 0;
@@ -79,9 +82,8 @@ TEST(PublishedModels, BushOfFigure125) {
 }
 
 TEST(PublishedModels, RowOfTrees) {
-  const LSystem row = parsed(
-      "#define p 0.3\n#define q (1-p)\n#define h ((p*q)^0.5)\n" +
-      grammar("-(90)F(1)", "F(x) --> F(x*p)+(86)F(x*h)-(86)-(86)F(x*h)+(86)F(x*q)"));
+  const LSystem row = parsed("#define p 0.3\n#define q (1-p)\n#define h ((p*q)^0.5)\n" +
+                             grammar("-(90)F(1)", "F(x) --> F(x*p)+(86)F(x*h)-(86)-(86)F(x*h)+(86)F(x*q)"));
   for (int n = 0; n <= 6; ++n) {
     const ModuleString string = derived(row, n);
     EXPECT_EQ(counts(string)["F"], std::size_t{1} << (2 * n));
