@@ -17,4 +17,4 @@ trap 'rm -rf "$meshes"' EXIT
 "$top/build/cambium" mesh "$top/examples/poplar_closeup.tree.toml" -o "$meshes/poplar.ply" --tolerance 1mm --no-ao
 "$top/build/cambium" mesh "$top/examples/presets/sprouts.tree.toml" -o "$meshes/sprouts.ply" --tolerance 1mm --no-ao
 "$top/scripts/wireframe.py" "$top/docs/wireframe.png" --size 700x700 \
-  --panel "$meshes/poplar.ply" 0.065 0.1 2.435 88 20 0.3 --panel "$meshes/sprouts.ply" 0.16 0.15 1.41 66 10 0.34
+  --panel "$meshes/poplar.ply" 0.065 0.1 2.435 20 20 0.3 --panel "$meshes/sprouts.ply" 0.16 0.15 1.41 66 10 0.34
