@@ -50,7 +50,7 @@ class ChainSegments {
 
   std::size_t size() const { return segments_.size(); }
   const ChainSegment& operator[](std::uint32_t k) const { return segments_[k]; }
-  /// Of wood, the first place inside on the part of the ray, which is the part's begin where that is inside; error as first_inside().
+  /// The first place inside the solid on the part of the ray, which is the part's begin where that is inside; error as first_inside().
   std::optional<double> meet(std::uint32_t k, const Ray& ray, const RaySegment& part) const;
   /// Outward, at a point of a segment's surface, and the radius there, metres.
   Vec3 normal(std::uint32_t k, const Vec3& p) const { return swept_normal(segments_[k].swept, p); }

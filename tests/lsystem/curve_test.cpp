@@ -89,7 +89,9 @@ class CurvesBeside : public testing::Test {
     return to_text(test::derived(LSystem::load(folder_ / "tree.l"), 1));
   }
 
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "cambium_curves_beside";
+  // Its own for each test: they may run side by side.
+  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
+                                        (std::string("cambium_curves_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(CurvesBeside, TheViewFileNumbersThem) {
