@@ -107,45 +107,45 @@ const double* Machine::run(const Code& code, double* locals) {
   };
   while (pc < count) {
     if (--budget == 0) fail("a loop that does not end", "fewer than 4000000 operations for one module");
-    const Instruction in = code.instructions[pc];
+    const CodeInstruction in = code.instructions[pc];
     switch (in.op) {
-      case Op::kConstant: *++top = code.constants[in.operand]; break;
-      case Op::kLocal: *++top = locals[in.operand]; break;
-      case Op::kGlobal: *++top = globals_[in.operand]; break;
-      case Op::kStoreLocal: locals[in.operand] = *top--; break;
-      case Op::kStoreGlobal: globals_[in.operand] = *top--; break;
-      case Op::kDrop: --top; break;
-      case Op::kNegate: *top = -*top; break;
-      case Op::kNot: *top = *top == 0.0; break;
-      case Op::kTruth: *top = *top != 0.0; break;
-      case Op::kAdd: --top; top[0] += top[1]; break;
-      case Op::kSubtract: --top; top[0] -= top[1]; break;
-      case Op::kMultiply: --top; top[0] *= top[1]; break;
-      case Op::kDivide:
+      case Opcode::kConstant: *++top = code.constants[in.operand]; break;
+      case Opcode::kLocal: *++top = locals[in.operand]; break;
+      case Opcode::kGlobal: *++top = globals_[in.operand]; break;
+      case Opcode::kStoreLocal: locals[in.operand] = *top--; break;
+      case Opcode::kStoreGlobal: globals_[in.operand] = *top--; break;
+      case Opcode::kDrop: --top; break;
+      case Opcode::kNegate: *top = -*top; break;
+      case Opcode::kNot: *top = *top == 0.0; break;
+      case Opcode::kTruth: *top = *top != 0.0; break;
+      case Opcode::kAdd: --top; top[0] += top[1]; break;
+      case Opcode::kSubtract: --top; top[0] -= top[1]; break;
+      case Opcode::kMultiply: --top; top[0] *= top[1]; break;
+      case Opcode::kDivide:
         --top;
         if (top[1] == 0.0) fail("a division by zero", "a divisor other than 0");
         top[0] /= top[1];
         break;
-      case Op::kModulo:
+      case Opcode::kModulo:
         --top;
         if (top[1] == 0.0) fail("a remainder of a division by zero", "a divisor other than 0");
         top[0] = std::fmod(top[0], top[1]);
         break;
-      case Op::kPower: --top; top[0] = std::pow(top[0], top[1]); break;
-      case Op::kLess: --top; top[0] = top[0] < top[1]; break;
-      case Op::kLessEqual: --top; top[0] = top[0] <= top[1]; break;
-      case Op::kGreater: --top; top[0] = top[0] > top[1]; break;
-      case Op::kGreaterEqual: --top; top[0] = top[0] >= top[1]; break;
-      case Op::kEqual: --top; top[0] = top[0] == top[1]; break;
-      case Op::kNotEqual: --top; top[0] = top[0] != top[1]; break;
-      case Op::kAndJump:
+      case Opcode::kPower: --top; top[0] = std::pow(top[0], top[1]); break;
+      case Opcode::kLess: --top; top[0] = top[0] < top[1]; break;
+      case Opcode::kLessEqual: --top; top[0] = top[0] <= top[1]; break;
+      case Opcode::kGreater: --top; top[0] = top[0] > top[1]; break;
+      case Opcode::kGreaterEqual: --top; top[0] = top[0] >= top[1]; break;
+      case Opcode::kEqual: --top; top[0] = top[0] == top[1]; break;
+      case Opcode::kNotEqual: --top; top[0] = top[0] != top[1]; break;
+      case Opcode::kAndJump:
         if (*top == 0.0) {
           pc = in.operand;
           continue;
         }
         --top;
         break;
-      case Op::kOrJump:
+      case Opcode::kOrJump:
         if (*top != 0.0) {
           *top = 1.0;
           pc = in.operand;
@@ -153,14 +153,14 @@ const double* Machine::run(const Code& code, double* locals) {
         }
         --top;
         break;
-      case Op::kJump: pc = in.operand; continue;
-      case Op::kJumpIfZero:
+      case Opcode::kJump: pc = in.operand; continue;
+      case Opcode::kJumpIfZero:
         if (*top-- == 0.0) {
           pc = in.operand;
           continue;
         }
         break;
-      case Op::kCall: {
+      case Opcode::kCall: {
         const auto function = static_cast<Function>(in.operand & 0xff);
         const std::uint32_t arity = in.operand >> 8;
         double* arguments = top + 1 - arity;
@@ -177,13 +177,13 @@ const double* Machine::run(const Code& code, double* locals) {
         *top = result;
         break;
       }
-      case Op::kElement: {
+      case Opcode::kElement: {
         const ArrayInfo& array = tables_.arrays[in.operand];
         top -= array.sizes.size() - 1;
         *top = element(array, top, code.places[pc]);
         break;
       }
-      case Op::kStoreElement: {
+      case Opcode::kStoreElement: {
         const ArrayInfo& array = tables_.arrays[in.operand];
         const double value = *top--;
         top -= array.sizes.size() - 1;
@@ -191,13 +191,13 @@ const double* Machine::run(const Code& code, double* locals) {
         --top;
         break;
       }
-      case Op::kPrint:
+      case Opcode::kPrint:
         top -= code.prints[in.operand].values;
         print(code.prints[in.operand], top + 1);
         *++top = 0.0;
         break;
     }
-    if (in.op >= Op::kAdd && in.op <= Op::kPower && !std::isfinite(*top))
+    if (in.op >= Opcode::kAdd && in.op <= Opcode::kPower && !std::isfinite(*top))
       fail("a number that is not finite", "an expression within the range of a double");
     ++pc;
   }

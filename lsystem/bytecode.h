@@ -13,7 +13,7 @@
 
 namespace cambium {
 
-enum class Op : std::uint8_t {
+enum class Opcode : std::uint8_t {
   kConstant, kLocal, kGlobal, kStoreLocal, kStoreGlobal, kDrop,
   kNegate, kNot, kTruth,
   kAdd, kSubtract, kMultiply, kDivide, kModulo, kPower,
@@ -39,8 +39,8 @@ struct FunctionInfo {
 /// nullptr if there is none. Angles are in degrees, as in cpfg.
 const FunctionInfo* find_function(std::string_view name);
 
-struct Instruction {
-  Op op;
+struct CodeInstruction {
+  Opcode op;
   std::uint32_t operand = 0;  ///< constant, variable, jump target, function or array
 };
 
@@ -51,7 +51,7 @@ struct PrintCall {
 };
 
 struct Code {
-  std::vector<Instruction> instructions;
+  std::vector<CodeInstruction> instructions;
   std::vector<double> constants;
   std::vector<Place> places;  ///< of each instruction
   std::vector<PrintCall> prints;

@@ -13,15 +13,15 @@ constexpr int kMaxNesting = 200;
 struct BinaryOperator {
   std::string_view text;
   int precedence;
-  Op op;
+  Opcode op;
 };
 
 // Longer spellings first, so that `<=` is not read as `<`.
 constexpr BinaryOperator kBinary[] = {
-    {"||", 1, Op::kOrJump},   {"&&", 2, Op::kAndJump},   {"==", 3, Op::kEqual},        {"!=", 3, Op::kNotEqual},
-    {"<>", 3, Op::kNotEqual}, {"<=", 4, Op::kLessEqual}, {">=", 4, Op::kGreaterEqual}, {"<", 4, Op::kLess},
-    {">", 4, Op::kGreater},   {"+", 5, Op::kAdd},        {"-", 5, Op::kSubtract},      {"*", 6, Op::kMultiply},
-    {"/", 6, Op::kDivide},    {"%", 6, Op::kModulo},     {"^", 7, Op::kPower},
+    {"||", 1, Opcode::kOrJump},   {"&&", 2, Opcode::kAndJump},   {"==", 3, Opcode::kEqual},        {"!=", 3, Opcode::kNotEqual},
+    {"<>", 3, Opcode::kNotEqual}, {"<=", 4, Opcode::kLessEqual}, {">=", 4, Opcode::kGreaterEqual}, {"<", 4, Opcode::kLess},
+    {">", 4, Opcode::kGreater},   {"+", 5, Opcode::kAdd},        {"-", 5, Opcode::kSubtract},      {"*", 6, Opcode::kMultiply},
+    {"/", 6, Opcode::kDivide},    {"%", 6, Opcode::kModulo},     {"^", 7, Opcode::kPower},
 };
 
 const BinaryOperator* binary_operator_at(const Cursor& cursor) {
@@ -61,7 +61,7 @@ ExpressionCompiler::Nesting::Nesting(ExpressionCompiler& of) : owner(of) {
     owner.cursor_.fail_at(owner.cursor_.position(), "nesting deeper than 200", "a simpler expression");
 }
 
-std::size_t ExpressionCompiler::emit(Op op, std::uint32_t operand, int change, std::size_t at) {
+std::size_t ExpressionCompiler::emit(Opcode op, std::uint32_t operand, int change, std::size_t at) {
   code_.instructions.push_back({op, operand});
   code_.places.push_back(cursor_.place_of(at));
   depth_ = static_cast<std::size_t>(static_cast<long>(depth_) + change);
@@ -71,10 +71,10 @@ std::size_t ExpressionCompiler::emit(Op op, std::uint32_t operand, int change, s
 
 void ExpressionCompiler::emit_constant(double value, std::size_t at) {
   code_.constants.push_back(value);
-  emit(Op::kConstant, static_cast<std::uint32_t>(code_.constants.size() - 1), 1, at);
+  emit(Opcode::kConstant, static_cast<std::uint32_t>(code_.constants.size() - 1), 1, at);
 }
 
-void ExpressionCompiler::emit_operator(Op op, std::uint32_t operand, std::size_t operands, std::size_t at) {
+void ExpressionCompiler::emit_operator(Opcode op, std::uint32_t operand, std::size_t operands, std::size_t at) {
   emit(op, operand, 1 - static_cast<int>(operands), at);
   fold(operands);
 }
@@ -85,7 +85,7 @@ void ExpressionCompiler::fold(std::size_t operands) {
   const std::size_t count = operands + 1;
   if (code_.instructions.size() < count || code_.instructions.size() - count < unfolded_) return;
   const auto first = code_.instructions.end() - static_cast<std::ptrdiff_t>(count);
-  if (!std::all_of(first, code_.instructions.end() - 1, [](const Instruction& i) { return i.op == Op::kConstant; })) return;
+  if (!std::all_of(first, code_.instructions.end() - 1, [](const CodeInstruction& i) { return i.op == Opcode::kConstant; })) return;
   Code piece;
   piece.instructions.assign(first, code_.instructions.end());
   piece.places.assign(code_.places.end() - static_cast<std::ptrdiff_t>(count), code_.places.end());
@@ -101,7 +101,7 @@ void ExpressionCompiler::fold(std::size_t operands) {
   code_.constants.resize(code_.constants.size() - operands);
   code_.constants.push_back(value);
   code_.instructions.resize(code_.instructions.size() - count);
-  code_.instructions.push_back({Op::kConstant, static_cast<std::uint32_t>(code_.constants.size() - 1)});
+  code_.instructions.push_back({Opcode::kConstant, static_cast<std::uint32_t>(code_.constants.size() - 1)});
   const Place place = code_.places.back();
   code_.places.resize(code_.instructions.size());
   code_.places.back() = place;
@@ -118,20 +118,20 @@ void ExpressionCompiler::expression() {
 // Behind the condition of `a ? b : c`.
 void ExpressionCompiler::choice(std::size_t at) {
   cursor_.advance();
-  const std::size_t otherwise = emit(Op::kJumpIfZero, 0, -1, at);
+  const std::size_t otherwise = emit(Opcode::kJumpIfZero, 0, -1, at);
   expression();
-  const std::size_t end = emit(Op::kJump, 0, -1, at);
+  const std::size_t end = emit(Opcode::kJump, 0, -1, at);
   cursor_.expect(':', "of '?'");
   patch(otherwise);
   expression();
   patch(end);
 }
 
-void ExpressionCompiler::lazy(Op op, int precedence, std::size_t at) {
-  if (op == Op::kAndJump) emit(Op::kTruth, 0, 0, at);
+void ExpressionCompiler::lazy(Opcode op, int precedence, std::size_t at) {
+  if (op == Opcode::kAndJump) emit(Opcode::kTruth, 0, 0, at);
   const std::size_t jump = emit(op, 0, -1, at);
   binary(precedence + 1);
-  emit(Op::kTruth, 0, 0, at);
+  emit(Opcode::kTruth, 0, 0, at);
   patch(jump);
 }
 
@@ -144,7 +144,7 @@ void ExpressionCompiler::binary(int lowest) {
     if (!found || found->precedence < lowest) return;
     const std::size_t at = cursor_.position();
     cursor_.advance(found->text.size());
-    if (found->op == Op::kAndJump || found->op == Op::kOrJump) {
+    if (found->op == Opcode::kAndJump || found->op == Opcode::kOrJump) {
       lazy(found->op, found->precedence, at);
     } else {
       binary(found->precedence + 1);
@@ -161,8 +161,8 @@ void ExpressionCompiler::unary() {
   if ((c == '-' && !cursor_.looking_at("-->")) || c == '+' || (c == '!' && cursor_.peek(1) != '=')) {
     cursor_.advance();
     unary();
-    if (c == '-') emit_operator(Op::kNegate, 0, 1, at);
-    if (c == '!') emit_operator(Op::kNot, 0, 1, at);
+    if (c == '-') emit_operator(Opcode::kNegate, 0, 1, at);
+    if (c == '!') emit_operator(Opcode::kNot, 0, 1, at);
     return;
   }
   primary();
@@ -223,9 +223,9 @@ void ExpressionCompiler::call(const std::string& name, std::size_t begin) {
   const std::uint32_t operand = static_cast<std::uint32_t>(function->function) | count << 8;
   if (function->function == Function::kSrand) code_.has_effects = true;
   if (draws_or_looks_up(function->function))
-    emit(Op::kCall, operand, 1 - function->arity, begin);
+    emit(Opcode::kCall, operand, 1 - function->arity, begin);
   else
-    emit_operator(Op::kCall, operand, count, begin);
+    emit_operator(Opcode::kCall, operand, count, begin);
 }
 
 std::string ExpressionCompiler::quoted_text() {
@@ -256,7 +256,7 @@ void ExpressionCompiler::print_call(std::size_t begin) {
   code_.has_effects = true;
   const int change = 1 - static_cast<int>(print.values);
   code_.prints.push_back(std::move(print));
-  emit(Op::kPrint, static_cast<std::uint32_t>(code_.prints.size() - 1), change, begin);
+  emit(Opcode::kPrint, static_cast<std::uint32_t>(code_.prints.size() - 1), change, begin);
 }
 
 // The arguments are checked, and that is all.
@@ -300,18 +300,18 @@ void ExpressionCompiler::indices(std::uint32_t array) {
 
 void ExpressionCompiler::load(const std::string& name, std::size_t begin) {
   if (const auto local = scope_.locals.find(name); local != scope_.locals.end()) {
-    emit(Op::kLocal, local->second, 1, begin);
+    emit(Opcode::kLocal, local->second, 1, begin);
     return;
   }
   if (const std::uint32_t* array = array_named(name)) {
     indices(*array);
-    emit(Op::kElement, *array, 1 - static_cast<int>(dimensions(*array)), begin);
+    emit(Opcode::kElement, *array, 1 - static_cast<int>(dimensions(*array)), begin);
     return;
   }
   if (scope_.system) {
     const auto& variables = scope_.system->variables;
     if (const auto global = variables.find(name); global != variables.end()) {
-      emit(Op::kGlobal, global->second, 1, begin);
+      emit(Opcode::kGlobal, global->second, 1, begin);
       return;
     }
     const auto& curves = scope_.system->tables.curves;
@@ -323,7 +323,7 @@ void ExpressionCompiler::load(const std::string& name, std::size_t begin) {
 
 void ExpressionCompiler::store(const std::string& name, std::size_t at) {
   if (const auto local = scope_.locals.find(name); local != scope_.locals.end()) {
-    emit(Op::kStoreLocal, local->second, -1, at);
+    emit(Opcode::kStoreLocal, local->second, -1, at);
     return;
   }
   if (scope_.system) {
@@ -333,13 +333,13 @@ void ExpressionCompiler::store(const std::string& name, std::size_t at) {
       const std::uint32_t slot = global != variables.end() ? global->second : scope_.system->slots++;
       variables.emplace(name, slot);
       code_.has_effects = true;
-      emit(Op::kStoreGlobal, slot, -1, at);
+      emit(Opcode::kStoreGlobal, slot, -1, at);
       return;
     }
   }
   const auto slot = static_cast<std::uint32_t>(scope_.locals.size());
   scope_.locals.emplace(name, slot);
-  emit(Op::kStoreLocal, slot, -1, at);
+  emit(Opcode::kStoreLocal, slot, -1, at);
 }
 
 }  // namespace cambium

@@ -40,7 +40,7 @@ class ExpressionCompiler {
   struct Nesting;
 
   void binary(int lowest);
-  void lazy(Op op, int precedence, std::size_t at);
+  void lazy(Opcode op, int precedence, std::size_t at);
   void choice(std::size_t at);
   void unary();
   void primary();
@@ -63,9 +63,9 @@ class ExpressionCompiler {
   void indices(std::uint32_t array);
   void load(const std::string& name, std::size_t begin);
   void store(const std::string& name, std::size_t at);
-  std::size_t emit(Op op, std::uint32_t operand, int change, std::size_t at);
+  std::size_t emit(Opcode op, std::uint32_t operand, int change, std::size_t at);
   void emit_constant(double value, std::size_t at);
-  void emit_operator(Op op, std::uint32_t operand, std::size_t operands, std::size_t at);
+  void emit_operator(Opcode op, std::uint32_t operand, std::size_t operands, std::size_t at);
   void fold(std::size_t operands);
   std::uint32_t here() const { return static_cast<std::uint32_t>(code_.instructions.size()); }
   void patch(std::size_t jump) { code_.instructions[jump].operand = unfolded_ = here(); }

@@ -31,7 +31,7 @@ void ExpressionCompiler::statement() {
     assignment();
   } else {
     expression();
-    emit(Op::kDrop, 0, -1, begin);
+    emit(Opcode::kDrop, 0, -1, begin);
   }
   cursor_.expect(';', "after the statement");
 }
@@ -54,7 +54,7 @@ void ExpressionCompiler::if_statement(std::size_t begin) {
   cursor_.expect('(', "after 'if'");
   expression();
   cursor_.expect(')', "after the condition");
-  const std::size_t otherwise = emit(Op::kJumpIfZero, 0, -1, begin);
+  const std::size_t otherwise = emit(Opcode::kJumpIfZero, 0, -1, begin);
   statement();
   cursor_.skip_space();
   const std::size_t after = cursor_.position();
@@ -62,7 +62,7 @@ void ExpressionCompiler::if_statement(std::size_t begin) {
     cursor_.seek(after);
     return patch(otherwise);
   }
-  const std::size_t end = emit(Op::kJump, 0, 0, after);
+  const std::size_t end = emit(Opcode::kJump, 0, 0, after);
   patch(otherwise);
   statement();
   patch(end);
@@ -73,9 +73,9 @@ void ExpressionCompiler::while_statement(std::size_t begin) {
   const std::uint32_t top = here();
   expression();
   cursor_.expect(')', "after the condition");
-  const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
+  const std::size_t end = emit(Opcode::kJumpIfZero, 0, -1, begin);
   statement();
-  emit(Op::kJump, top, 0, begin);
+  emit(Opcode::kJump, top, 0, begin);
   patch(end);
 }
 
@@ -89,8 +89,8 @@ void ExpressionCompiler::do_statement(std::size_t begin) {
   expression();
   cursor_.expect(')', "after the condition");
   cursor_.expect(';', "after 'do'");
-  const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
-  emit(Op::kJump, top, 0, begin);
+  const std::size_t end = emit(Opcode::kJumpIfZero, 0, -1, begin);
+  emit(Opcode::kJump, top, 0, begin);
   patch(end);
 }
 
@@ -101,15 +101,15 @@ void ExpressionCompiler::for_statement(std::size_t begin) {
   const std::uint32_t top = here();
   expression();
   cursor_.expect(';', "after the condition");
-  const std::size_t end = emit(Op::kJumpIfZero, 0, -1, begin);
-  const std::size_t body = emit(Op::kJump, 0, 0, begin);
+  const std::size_t end = emit(Opcode::kJumpIfZero, 0, -1, begin);
+  const std::size_t body = emit(Opcode::kJump, 0, 0, begin);
   const std::uint32_t step = here();
   assignment();
   cursor_.expect(')', "after the step of 'for'");
-  emit(Op::kJump, top, 0, begin);
+  emit(Opcode::kJump, top, 0, begin);
   patch(body);
   statement();
-  emit(Op::kJump, step, 0, begin);
+  emit(Opcode::kJump, step, 0, begin);
   patch(end);
 }
 
@@ -122,10 +122,10 @@ void ExpressionCompiler::assignment() {
   if (array) indices(*array);
   cursor_.skip_space();
   const std::size_t at = cursor_.position();
-  Op combined = Op::kConstant;
+  Opcode combined = Opcode::kConstant;
   const char c = cursor_.peek();
   if (!array && cursor_.peek(1) == '=' && (c == '+' || c == '-' || c == '*' || c == '/')) {
-    combined = c == '+' ? Op::kAdd : c == '-' ? Op::kSubtract : c == '*' ? Op::kMultiply : Op::kDivide;
+    combined = c == '+' ? Opcode::kAdd : c == '-' ? Opcode::kSubtract : c == '*' ? Opcode::kMultiply : Opcode::kDivide;
     load(name, begin);
     cursor_.advance(2);
   } else {
@@ -133,10 +133,10 @@ void ExpressionCompiler::assignment() {
     if (cursor_.peek() == '=') cursor_.fail("an expression");
   }
   expression();
-  if (combined != Op::kConstant) emit(combined, 0, -1, at);
+  if (combined != Opcode::kConstant) emit(combined, 0, -1, at);
   if (!array) return store(name, begin);
   code_.has_effects = true;
-  emit(Op::kStoreElement, *array, -1 - static_cast<int>(dimensions(*array)), begin);
+  emit(Opcode::kStoreElement, *array, -1 - static_cast<int>(dimensions(*array)), begin);
 }
 
 }  // namespace cambium

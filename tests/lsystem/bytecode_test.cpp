@@ -5,7 +5,7 @@
 namespace cambium {
 namespace {
 
-Code code_of(std::vector<Instruction> instructions, std::vector<double> constants, std::size_t stack_size) {
+Code code_of(std::vector<CodeInstruction> instructions, std::vector<double> constants, std::size_t stack_size) {
   Code code;
   code.instructions = std::move(instructions);
   code.constants = std::move(constants);
@@ -36,7 +36,7 @@ class Bytecode : public testing::Test {
 };
 
 TEST_F(Bytecode, LeavesItsValuesBottomFirst) {
-  const Code code = code_of({{Op::kLocal, 1}, {Op::kConstant, 0}, {Op::kLocal, 0}, {Op::kSubtract}}, {3}, 3);
+  const Code code = code_of({{Opcode::kLocal, 1}, {Opcode::kConstant, 0}, {Opcode::kLocal, 0}, {Opcode::kSubtract}}, {3}, 3);
   const double* values = machine.run(code, locals);
   EXPECT_EQ(values[0], 20);
   EXPECT_EQ(values[1], -7);
@@ -45,23 +45,23 @@ TEST_F(Bytecode, LeavesItsValuesBottomFirst) {
 
 TEST_F(Bytecode, ElementsAreCheckedAgainstTheArraysSizes) {
   globals = {0, 1, 2, 3, 4, 5};
-  const std::vector<Instruction> load = {{Op::kConstant, 0}, {Op::kConstant, 1}, {Op::kElement, 0}};
+  const std::vector<CodeInstruction> load = {{Opcode::kConstant, 0}, {Opcode::kConstant, 1}, {Opcode::kElement, 0}};
   EXPECT_EQ(machine.value(code_of(load, {1, 2}, 2), locals), 5);
   EXPECT_EQ(column_of_error(code_of(load, {1, 3}, 2)), 3);
   EXPECT_EQ(column_of_error(code_of(load, {-1, 0}, 2)), 3);
-  const std::vector<Instruction> store = {{Op::kConstant, 0}, {Op::kConstant, 1}, {Op::kLocal, 3}, {Op::kStoreElement, 0}};
+  const std::vector<CodeInstruction> store = {{Opcode::kConstant, 0}, {Opcode::kConstant, 1}, {Opcode::kLocal, 3}, {Opcode::kStoreElement, 0}};
   machine.run(code_of(store, {0, 1}, 3), locals);
   EXPECT_EQ(globals[1], 40);
 }
 
 TEST_F(Bytecode, ErrorsNameTheInstruction) {
-  EXPECT_EQ(column_of_error(code_of({{Op::kConstant, 0}, {Op::kConstant, 0}, {Op::kDivide}}, {0}, 2)), 3);
-  EXPECT_EQ(column_of_error(code_of({{Op::kConstant, 0}, {Op::kConstant, 0}, {Op::kMultiply}}, {1e200}, 2)), 3);
-  EXPECT_NE(column_of_error(code_of({{Op::kJump, 0}}, {}, 0)), 0);  // never ends
+  EXPECT_EQ(column_of_error(code_of({{Opcode::kConstant, 0}, {Opcode::kConstant, 0}, {Opcode::kDivide}}, {0}, 2)), 3);
+  EXPECT_EQ(column_of_error(code_of({{Opcode::kConstant, 0}, {Opcode::kConstant, 0}, {Opcode::kMultiply}}, {1e200}, 2)), 3);
+  EXPECT_NE(column_of_error(code_of({{Opcode::kJump, 0}}, {}, 0)), 0);  // never ends
 }
 
 TEST_F(Bytecode, PrintingTakesItsValuesAndLeavesZero) {
-  Code code = code_of({{Op::kLocal, 0}, {Op::kLocal, 1}, {Op::kPrint, 0}}, {}, 2);
+  Code code = code_of({{Opcode::kLocal, 0}, {Opcode::kLocal, 1}, {Opcode::kPrint, 0}}, {}, 2);
   code.prints = {{"%g of %g\\n", 2}};
   EXPECT_EQ(machine.value(code, locals), 0);
   EXPECT_EQ(printed, "10 of 20\n");
@@ -69,7 +69,7 @@ TEST_F(Bytecode, PrintingTakesItsValuesAndLeavesZero) {
 
 TEST_F(Bytecode, CurvesAreCountedFromOne) {
   tables.curves.emplace_back("up", std::vector<CurvePoint>{{0, 0}, {1.0 / 3, 1}, {2.0 / 3, 2}, {1, 3}}, 0);
-  const Code code = code_of({{Op::kLocal, 0}, {Op::kConstant, 0}, {Op::kCall, static_cast<std::uint32_t>(Function::kFunc) | 2u << 8}}, {0.5}, 2);
+  const Code code = code_of({{Opcode::kLocal, 0}, {Opcode::kConstant, 0}, {Opcode::kCall, static_cast<std::uint32_t>(Function::kFunc) | 2u << 8}}, {0.5}, 2);
   locals[0] = 1;
   EXPECT_NEAR(machine.value(code, locals), 1.5, 1e-12);
   locals[0] = 2;
