@@ -128,6 +128,13 @@ void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candid
   }
 }
 
+void find_active(const CompiledTree& tree, const Box& box, ActiveAtoms& active) {
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t run : tree.index.query(tree.run_bounds, FloatBox(box)))
+    for (std::uint32_t a = tree.run_first_atom[run]; a < tree.end_atom_of_run(run); ++a) near.push_back(a);
+  find_active(tree, near, box, active);
+}
+
 void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& cube,
                           std::array<ActiveAtoms, kChildren>& children) {
   // Children are halves; what they are centred at and how far they reach.

@@ -29,6 +29,9 @@ struct ActiveAtoms {
 /// the minimum over its segments, so leaving out the others changes no bit. Cost: linear in candidates.
 void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candidates, const Box& box, ActiveAtoms& active);
 
+/// Of the whole tree, by its index. Cost: a logarithmic search, and linear in what is near the box.
+void find_active(const CompiledTree& tree, const Box& box, ActiveAtoms& active);
+
 inline constexpr std::size_t kChildren = kBalls;   ///< of a cube
 
 /// The same for the eight children of a cube at once. Child k lies on the high side of axis a where bit a of k is set.

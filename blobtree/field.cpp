@@ -39,10 +39,9 @@ Box Field::atom_bounds(std::uint32_t atom) const { return tree_->bounds_of(atom)
 std::size_t Field::memory_bytes() const { return tree_->memory_bytes(); }
 
 ActiveSet Field::active(const Box& box) const {
-  ActiveSet near;
-  for (const std::uint32_t run : tree_->index.query(tree_->run_bounds, FloatBox(box)))
-    for (std::uint32_t a = tree_->run_first_atom[run]; a < tree_->end_atom_of_run(run); ++a) near.atoms.push_back(a);
-  return narrow(near, box);
+  ActiveAtoms active;
+  find_active(*tree_, box, active);
+  return {std::move(active.atoms)};
 }
 
 ActiveSet Field::narrow(const ActiveSet& from, const Box& box) const {

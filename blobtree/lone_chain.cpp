@@ -61,11 +61,8 @@ void ActiveChain::append(const PrunedField& field, std::vector<ActiveChain>& cha
 
 bool ActiveChain::all_blend(const PrunedField& part, const Box& box) {
   const CompiledTree& tree = *part.tree_;
-  std::vector<std::uint32_t> near;
-  for (const std::uint32_t run : tree.index.query(tree.run_bounds, FloatBox(box)))
-    for (std::uint32_t a = tree.run_first_atom[run]; a < tree.end_atom_of_run(run); ++a) near.push_back(a);
   ActiveAtoms active;
-  find_active(tree, near, box, active);
+  find_active(tree, box, active);
   TapeBuilder builder(tree);
   const auto instructions = builder.build(active.atoms).instructions();
   return std::all_of(instructions.begin(), instructions.end(),

@@ -143,5 +143,18 @@ TEST(LoneChain, WhatIsWarpedWeakOrTakenAwayDoesNotOnlyBlend) {
   EXPECT_FALSE(ActiveChain::only_blend(single(weak).whole()));
 }
 
+TEST(LoneChain, AllOfTheFieldIsJudgedInABoxFromAnyPartOfIt) {
+  BlobTreeBuilder b;
+  const NodeId trunk = b.add(kTrunk), limb = b.add(kLimb);
+  const Field cut(b.build(b.add(Difference{{trunk, limb}})));
+  const Box below{{-0.2, -0.2, 0.2}, {0.2, 0.2, 0.3}};
+  for (const PrunedField& part : {cut.whole(), cut.prune(below)}) {
+    EXPECT_TRUE(ActiveChain::all_blend(part, below)) << "the limb is not here";
+    EXPECT_FALSE(ActiveChain::all_blend(part, cut.bounds()));
+  }
+  const Field fork = forked();
+  EXPECT_TRUE(ActiveChain::all_blend(fork.prune(Box{Vec3(0), Vec3(0)}), {Vec3(-kInfinity), Vec3(kInfinity)}));
+}
+
 }  // namespace
 }  // namespace cambium
