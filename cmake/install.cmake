@@ -5,7 +5,7 @@ set(public_headers
   blobtree/blobtree.h blobtree/blobtree_json.h blobtree/cell_grid.h blobtree/cell_search.h blobtree/field.h blobtree/geometry.h
   blobtree/id_table.h blobtree/input_error.h blobtree/invalid_node.h blobtree/node_store.h blobtree/nodes.h blobtree/run_options.h
   blobtree/branch_info.h blobtree/choices.h blobtree/surface_cover.h
-  skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
+  skeletons/foliage.h skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
   lsystem/lsystem.h
   polygonize/ambient_occlusion.h polygonize/decimate.h polygonize/mesh.h polygonize/mesh_attributes.h polygonize/mesh_io.h
   polygonize/polygonize.h polygonize/verify.h polygonize/volume.h

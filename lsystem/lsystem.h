@@ -3,6 +3,7 @@
 
 #include "blobtree/input_error.h"
 #include "blobtree/run_options.h"
+#include "skeletons/foliage.h"
 #include "skeletons/skeleton.h"
 
 #include <cstdint>
@@ -115,6 +116,7 @@ std::string to_text(const ExplainedStep& step);
 
 struct Turtled {
   Skeleton skeleton;                       ///< one internode per F
+  Foliage foliage;                         ///< polygons and named surfaces
   double total_length = 0;                 ///< of F, metres
   double last_width = 0;                   ///< the last width set
   std::map<std::string, std::size_t> skipped;  ///< symbols without meaning here, with their counts

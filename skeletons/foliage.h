@@ -1,0 +1,36 @@
+// Leaves and other organs that a skeleton carries: which shapes there are, and where each one sits.
+#pragma once
+
+#include "blobtree/geometry.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cambium {
+
+/// A shape in coordinates of its own: it is held at the origin, grows along y (the turtle's heading) and looks along z (its up); x is
+/// the turtle's left. One unit is a metre where a placement's scale is 1.
+struct OrganShape {
+  std::string name;                                  ///< of `~name`; `polygon1`, `polygon2`, ... of outlines between { and }
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< none: only the name is known, and whoever draws it brings a shape
+};
+
+/// One organ: a point p of its shape lies at position + scale * (p.x * left + p.y * heading + p.z * up), metres.
+struct OrganPlacement {
+  std::uint32_t shape = 0;                           ///< of Foliage::shapes
+  Vec3 position{0.0};
+  Vec3 left{-1, 0, 0}, heading{0, 0, 1}, up{0, 1, 0};  ///< unit vectors at right angles; left x heading = up
+  double scale = 1;
+  std::int32_t node = -1;                            ///< the skeleton's node that it was made behind; -1: before any
+  std::uint32_t color = 0;                           ///< the turtle's colour index (`;` `,` `'`)
+};
+
+struct Foliage {
+  std::vector<OrganShape> shapes;
+  std::vector<OrganPlacement> organs;
+};
+
+}  // namespace cambium
