@@ -72,8 +72,8 @@ MeshLook mesh_look(const Recipe& recipe, bool takes_textures) {
 }
 
 SurfaceColor vertex_colors(const Bark& bark) {
-  return [&bark](std::span<const Contribution> contributions, const SurfaceTraits& traits, const Vec3&, const Vec3&) {
-    const Vec3 albedo = bark.glance(contributions, traits).albedo;
+  return [&bark](std::span<const Contribution> contributions, const SurfaceTraits& traits, const VertexSite& site) {
+    const Vec3 albedo = bark.glance(contributions, traits, site.spacing).albedo;
     return std::array<std::uint8_t, 4>{srgb_byte(albedo.x), srgb_byte(albedo.y), srgb_byte(albedo.z), 255};
   };
 }

@@ -23,7 +23,7 @@ struct MeshLook {
 /// Errors: InputError where the recipe names an image that cannot be read.
 MeshLook mesh_look(const Recipe& recipe, bool takes_textures);
 
-/// sRGB of the bark. The bark must outlive it.
+/// sRGB of the bark, without what is finer than the mesh. The bark must outlive it.
 SurfaceColor vertex_colors(const Bark& bark);
 
 }  // namespace cambium

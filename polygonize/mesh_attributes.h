@@ -17,10 +17,13 @@
 
 namespace cambium {
 
-/// sRGB and alpha of a surface point, from what contributes there (Evaluator::contributions) and how it came about. Called from many
-/// threads.
-using SurfaceColor = std::function<std::array<std::uint8_t, 4>(std::span<const Contribution>, const SurfaceTraits&, const Vec3& p,
-                                                               const Vec3& normal)>;
+struct VertexSite {
+  Vec3 position, normal;
+  double spacing = 0;                          ///< metres to the vertices around it (vertex_spacing()): colours show nothing finer
+};
+
+/// sRGB and alpha of a vertex, from what contributes there (Evaluator::contributions) and how it came about. Called from many threads.
+using SurfaceColor = std::function<std::array<std::uint8_t, 4>(std::span<const Contribution>, const SurfaceTraits&, const VertexSite&)>;
 
 struct MeshAttributeOptions {
   /// By branch id; a branch beyond it (a field without a table) has BranchInfo's defaults.

@@ -2,6 +2,7 @@
 
 #include "blobtree/progress_meter.h"
 #include "blobtree/surface_cover.h"
+#include "polygonize/vertex_spacing.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -40,17 +41,34 @@ class FieldAround {
   PrunedField pruned_;
 };
 
+/// Colours of vertices, where they are asked for.
+class VertexColors {
+ public:
+  VertexColors(const Mesh& mesh, const SurfaceColor& color, const RunOptions& run)
+      : mesh_(mesh), color_(color), spacing_(color ? vertex_spacing(mesh, run) : std::vector<float>{}) {}
+
+  explicit operator bool() const { return static_cast<bool>(color_); }
+  std::array<std::uint8_t, 4> at(std::uint32_t vertex, std::span<const Contribution> contributions, const SurfaceTraits& traits) const {
+    return color_(contributions, traits, {mesh_.positions[vertex], Vec3(mesh_.normals[vertex]), spacing_[vertex]});
+  }
+
+ private:
+  const Mesh& mesh_;
+  const SurfaceColor& color_;
+  const std::vector<float> spacing_;
+};
+
 /// One thread's share of the work.
 class VertexReader {
  public:
-  void read(const PrunedField& field, const Mesh& mesh, std::uint32_t vertex, const SurfaceColor& color, MeshAttributes& out,
+  void read(const PrunedField& field, const Mesh& mesh, std::uint32_t vertex, const VertexColors& colors, MeshAttributes& out,
             std::vector<SurfacePlace>& places) {
     const Vec3& p = mesh.positions[vertex];
     evaluator_.contributions(field, p, contributions_);
     // A ridge takes two that meet.
     const bool meeting = contributions_.size() > 1;
-    const SurfaceTraits traits = color || meeting ? evaluator_.surface_traits(field, p) : SurfaceTraits{};
-    if (color) out.colors[vertex] = color(contributions_, traits, p, Vec3(mesh.normals[vertex]));
+    const SurfaceTraits traits = colors || meeting ? evaluator_.surface_traits(field, p) : SurfaceTraits{};
+    if (colors) out.colors[vertex] = colors.at(vertex, contributions_, traits);
     if (meeting) out.ridge[vertex] = static_cast<float>(traits.ridge);
     keep_axes();
     if (contributions_.empty()) return;
@@ -161,6 +179,7 @@ std::optional<SurfacePlaces> surface_places(const Field& field, const Mesh& mesh
   if (n == 0) return found;
   const auto cover = cover_surface(field, {}, run);
   if (!cover) return std::nullopt;
+  const VertexColors colors(mesh, color, run);
   ProgressMeter progress(run, "reading attributes");
   const std::size_t chunks = (n + kChunk - 1) / kChunk;
   std::vector<std::vector<SurfacePlace>> parts(chunks);
@@ -174,10 +193,10 @@ std::optional<SurfacePlaces> surface_places(const Field& field, const Mesh& mesh
     for (std::size_t i = begin; i < end; ++i) {
       const auto vertex = static_cast<std::uint32_t>(i);
       const std::size_t before = parts[chunk].size();
-      reader.read(around.at(mesh.positions[i]), mesh, vertex, color, out, parts[chunk]);
+      reader.read(around.at(mesh.positions[i]), mesh, vertex, colors, out, parts[chunk]);
       found.first[i] = static_cast<std::uint32_t>(before);
       found.count[i] = static_cast<std::uint8_t>(std::min<std::size_t>(parts[chunk].size() - before, 255));
-      if (color && run.cancelled()) return;
+      if (colors && run.cancelled()) return;
     }
     progress.add(1.0 / static_cast<double>(chunks));
   });

@@ -2,7 +2,9 @@
 
 #include "polygonize/corner_normals.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cambium {
 namespace {
@@ -36,6 +38,17 @@ void number_corners(const Mesh& mesh, const MeshAttributes* attributes, const Co
     }
 }
 
+/// From `across` = |a x b| and `along` = a . b the angle between a and b, [0, pi], to 1e-5: as a weight, that is plenty, and ten times
+/// as fast as atan2. (Minimax polynomial of the arc tangent on [0, 1], Abramowitz and Stegun 4.4.49.)
+float angle_between(float across, float along) {
+  const float x = std::abs(along), low = std::min(across, x), high = std::max(across, x);
+  if (!(high > 0)) return 0;
+  const float t = low / high, s = t * t;
+  const float first = t * (0.9998660f + s * (-0.3302995f + s * (0.1801410f + s * (-0.0851330f + s * 0.0208351f))));
+  const float acute = across > x ? 0.5f * std::numbers::pi_v<float> - first : first;
+  return along < 0 ? std::numbers::pi_v<float> - acute : acute;
+}
+
 /// Sums of the gradients' directions, weighted by the angle at the corner, as MikkTSpace has them.
 void find_tangents(const Mesh& mesh, const MeshAttributes& attributes, SplitMesh& out) {
   std::vector<glm::vec3> sums(out.vertex.size(), glm::vec3(0.0f));
@@ -53,7 +66,7 @@ void find_tangents(const Mesh& mesh, const MeshAttributes& attributes, SplitMesh
     const glm::vec3 edges[3] = {p, q - p, -q};
     for (int k = 0; k < 3; ++k) {
       const glm::vec3 &from = edges[k], to = -edges[(k + 2) % 3];
-      const float angle = std::atan2(glm::length(glm::cross(from, to)), glm::dot(from, to));
+      const float angle = angle_between(glm::length(glm::cross(from, to)), glm::dot(from, to));
       sums[t[k]] += angle * along;
       sides[t[k]] += area > 0 ? angle : -angle;
     }

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <set>
+
 #include "raytrace/image_file.h"
 #include "temporary_folder.h"
 
@@ -27,16 +31,16 @@ crack_color = [0.1, 0.2, 0.3]
 )";
 
 /// The vertex colour halfway along a plain branch of the given order.
-std::array<std::uint8_t, 4> color_on(const MeshLook& look, std::uint32_t order) {
+std::array<std::uint8_t, 4> color_on(const MeshLook& look, std::uint32_t order, double around = 0, double spacing = 0) {
   BlobTreeBuilder builder;
   const NodeId id = builder.add(Chain{{{Vec3(0), 0.1}, {Vec3(0, 0, 1), 0.1}}});
   builder.set_attributes(id, {0, order, 0, Vec3(1, 0, 0)});
   const Field field(builder.build(id));
   Evaluator evaluator;
-  const Vec3 p(0.1, 0, 0.5);
+  const Vec3 n(std::cos(around), std::sin(around), 0), p = 0.1 * n + Vec3(0, 0, 0.5);
   std::vector<Contribution> contributions;
   evaluator.contributions(field.whole(), p, contributions);
-  return vertex_colors(look.bark)(contributions, evaluator.surface_traits(field.whole(), p), p, Vec3(1, 0, 0));
+  return vertex_colors(look.bark)(contributions, evaluator.surface_traits(field.whole(), p), {p, n, spacing});
 }
 
 TEST(MeshLook, TexturesGoAlongAsTheyAreAndColoursThenOnlyTintThem) {
@@ -52,6 +56,18 @@ TEST(MeshLook, TexturesGoAlongAsTheyAreAndColoursThenOnlyTintThem) {
   EXPECT_GT(textured[0], 200);
   EXPECT_EQ(textured[0], textured[2]);
   EXPECT_LT(plain[0], plain[2]);
+}
+
+TEST(MeshLook, VerticesShowNothingFinerThanTheMesh) {
+  const Recipe recipe = empty_recipe("a.skel.json", {});
+  const MeshLook look = mesh_look(recipe, false);
+  std::set<std::array<std::uint8_t, 4>> close, coarse;
+  for (int i = 0; i < 12; ++i) {
+    close.insert(color_on(look, 0, 0.5 * i, 1e-4));
+    coarse.insert(color_on(look, 0, 0.5 * i, 1.0));
+  }
+  EXPECT_GT(close.size(), 6u);
+  EXPECT_EQ(coarse.size(), 1u);
 }
 
 TEST(MeshLook, MapsGoAlongUnlessTheirNormalsPointTheOtherWay) {

@@ -143,9 +143,10 @@ TEST(SurfacePlaces, ColoursComeFromTheCallback) {
   const Field field = small_tree();
   const Mesh mesh = small_tree_mesh(field);
   MeshAttributes a;
-  const SurfaceColor red_above_one = [](std::span<const Contribution>, const SurfaceTraits&, const Vec3& p, const Vec3& n) {
-    EXPECT_NEAR(glm::length(n), 1, 1e-3);
-    return std::array<std::uint8_t, 4>{static_cast<std::uint8_t>(p.z > 1 ? 200 : 10), 0, 0, 255};
+  const SurfaceColor red_above_one = [](std::span<const Contribution>, const SurfaceTraits&, const VertexSite& at) {
+    EXPECT_NEAR(glm::length(at.normal), 1, 1e-3);
+    EXPECT_GT(at.spacing, 0);
+    return std::array<std::uint8_t, 4>{static_cast<std::uint8_t>(at.position.z > 1 ? 200 : 10), 0, 0, 255};
   };
   ASSERT_TRUE(surface_places(field, mesh, red_above_one, a, {}));
   ASSERT_EQ(a.colors.size(), mesh.positions.size());
@@ -159,7 +160,7 @@ TEST(SurfacePlaces, CancelledItIsNothing) {
   RunOptions run;
   run.cancel = &cancel;
   MeshAttributes a;
-  const SurfaceColor stop = [&](std::span<const Contribution>, const SurfaceTraits&, const Vec3&, const Vec3&) {
+  const SurfaceColor stop = [&](std::span<const Contribution>, const SurfaceTraits&, const VertexSite&) {
     cancel = true;
     return std::array<std::uint8_t, 4>{};
   };
