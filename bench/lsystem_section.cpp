@@ -71,7 +71,7 @@ bool same(const ModuleString& a, const ModuleString& b) {
 
 void add_drawing(Report& report, const LSystem& system, const ModuleString& string) {
   double seconds = 0;
-  const Turtled turtled = timed(seconds, [&] { return interpret(string, system, {}); });
+  const Turtled turtled = timed(seconds, [&] { return *interpret(string, system, {}, {}); });
   report.add(
       {.what = fmt::format("  turtle, {:.1f} million internodes", static_cast<double>(turtled.skeleton.nodes.size()) / 1e6),
        .figure = seconds,

@@ -64,7 +64,7 @@ void poplar_section(Report& report, const Pace& pace) {
   const LSystem system = LSystem::load(std::filesystem::path(CAMBIUM_EXAMPLES) / "poplar.l");
   const auto string = timed(derive_s, [&] { return derive(system, {}, {}); });
   if (!string) throw std::logic_error("a derivation that nothing cancels was cancelled");
-  const Skeleton skeleton = timed(turtle_s, [&] { return interpret(*string, system, {}).skeleton; });
+  const Skeleton skeleton = timed(turtle_s, [&] { return interpret(*string, system, {}, {})->skeleton; });
   const Surfaced surfaced = timed(surface_s, [&] { return surface(skeleton, poplar_options()); });
   const Field field = timed(compile_s, [&] { return Field(surfaced.tree); });
   Cells cells = cells_of(skeleton, field);

@@ -12,19 +12,22 @@
 namespace cambium {
 namespace {
 
-void report_string(Job& job, const ModuleString& string, const LSystem& system) {
+/// False if cancelled.
+bool report_string(Job& job, const ModuleString& string, const LSystem& system) {
   std::vector<std::size_t> counts(string.names.size(), 0);
   for (const auto symbol : string.symbol) ++counts[symbol];
   std::map<std::string, std::size_t> symbols;
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (counts[i] > 0) symbols[string.names[i]] += counts[i];
   const StageTimer timer(job.figures, "turtle");
-  const Turtled turtled = interpret(string, system, job.recipe.skeleton.turtle);
+  const auto turtled = interpret(string, system, job.recipe.skeleton.turtle, job.run);
+  if (!turtled) return false;
   job.figures.set("modules", string.size());
   job.figures.set("symbols", symbols);
-  job.figures.set("total_length", turtled.total_length);
-  job.figures.set("last_width", turtled.last_width);
-  job.figures.set("skipped_symbols", turtled.skipped);
+  job.figures.set("total_length", turtled->total_length);
+  job.figures.set("last_width", turtled->last_width);
+  job.figures.set("skipped_symbols", turtled->skipped);
+  return true;
 }
 
 struct Derived {
@@ -63,7 +66,7 @@ Outcome run_derive(Job& job) {
     else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
       throw std::runtime_error("stdout cannot be written");
   }
-  if (output || job.line.json) report_string(job, derived->string, system);
+  if ((output || job.line.json) && !report_string(job, derived->string, system)) return Outcome::kInterrupted;
   if (job.run.cancelled()) return Outcome::kInterrupted;
   if (output) output->commit();
   return Outcome::kDone;

@@ -26,12 +26,13 @@ void find_source(Job& job) {
   require_readable(job.source, job.source == job.line.input ? nullptr : &skeleton.named_at);
 }
 
-Skeleton walk_turtle(Job& job, const ModuleString& string, const LSystem& system) {
+std::optional<Skeleton> walk_turtle(Job& job, const ModuleString& string, const LSystem& system) {
   const StageTimer timer(job.figures, "turtle");
-  Turtled turtled = interpret(string, system, job.recipe.skeleton.turtle);
-  if (turtled.radii_clamped > 0) job.figures.set("turtle_radii_clamped", turtled.radii_clamped);
-  if (!turtled.skipped.empty()) job.figures.set("skipped_symbols", turtled.skipped);
-  return std::move(turtled.skeleton);
+  auto turtled = interpret(string, system, job.recipe.skeleton.turtle, job.run);
+  if (!turtled) return std::nullopt;
+  if (turtled->radii_clamped > 0) job.figures.set("turtle_radii_clamped", turtled->radii_clamped);
+  if (!turtled->skipped.empty()) job.figures.set("skipped_symbols", turtled->skipped);
+  return std::move(turtled->skeleton);
 }
 
 /// surface() knows no files. Where it refuses one of the recipe's prunes or scars, the place in the recipe is that of the

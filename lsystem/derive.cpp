@@ -42,14 +42,12 @@ class Derivation {
   }
 
   bool advance() {
-    begin_step();
-    return pass_.rewrite(modules_, Stage::kDerivation, next_) && take_next() && end_step();
+    return begin_step() && pass_.rewrite(modules_, Stage::kDerivation, next_) && take_next() && end_step();
   }
 
   /// The same, with the string before it and the origins of what is in it after.
   bool advance(Modules& before, std::vector<Rewriter::Origin>& origins) {
-    begin_step();
-    if (!pass_.rewrite(modules_, Stage::kDerivation, next_, origins)) return false;
+    if (!begin_step() || !pass_.rewrite(modules_, Stage::kDerivation, next_, origins)) return false;
     before = std::move(modules_);
     return take_next() && end_step();
   }
@@ -63,24 +61,27 @@ class Derivation {
     return string;
   }
 
-  ModuleString end() {
-    answer();
+  /// nullopt if cancelled.
+  std::optional<ModuleString> end() {
+    if (!answer()) return std::nullopt;
     pass_.run_block(&System::end, 1);
     return named(std::move(modules_));
   }
 
  private:
-  void begin_step() {
-    answer();
+  bool begin_step() {
+    if (!answer()) return false;
     pass_.run_block(&System::start_each, 2 + 2 * ++step_);
+    return true;
   }
 
   // As cpfg, which draws every string and so answers what it asks.
-  void answer() {
-    if (!asks_) return;
+  bool answer() {
+    if (!asks_) return true;
     ModuleString string = named(std::move(modules_));
-    answer_queries(string, system_, options_.turtle);
+    const bool answered = answer_queries(string, system_, options_.turtle, run_);
     modules_ = std::move(static_cast<Modules&>(string));
+    return answered;
   }
 
   bool end_step() {
@@ -146,7 +147,9 @@ std::optional<ExplainedStep> explain_step(const LSystem& system, const DeriveOpt
   if (!derivation.advance(before, origins)) return std::nullopt;
   ExplainedStep out;
   out.before = derivation.named(std::move(before));
-  out.after = derivation.end();
+  auto after = derivation.end();
+  if (!after) return std::nullopt;
+  out.after = std::move(*after);
   RuleNumbers numbers(system.program());
   for (const Rewriter::Origin& origin : origins) out.origins.push_back({origin.parent, numbers.number(origin.rule)});
   out.rules = std::move(numbers).places();

@@ -129,12 +129,14 @@ struct Turtled {
 /// "F(0)"). `lateral` is set: true for the first internode behind a `[`. `radius` and `base_radius` are half the width when
 /// drawn, or the parent's radius if that is smaller (counted in radii_clamped).
 /// @M(x,y,z) places, @R(hx,hy,hz[,ux,uy,uz]) orients; @Ts(e) and @T(e) set the elasticity, @Td(x,y,z) the tropism.
+/// Looks at run.cancel every few milliseconds; only the homomorphism uses more than one thread. nullopt if cancelled.
 /// Errors: InputError (place: the file) for a negative length, a width of 0 or less, a position that is not finite, more nodes
 /// than int32 counts, or an error of the homomorphism.
-Turtled interpret(const ModuleString& string, const LSystem& system, const TurtleOptions& options);
+std::optional<Turtled> interpret(const ModuleString& string, const LSystem& system, const TurtleOptions& options,
+                                 const RunOptions& run);
 
 /// Gives every module ?P, ?H, ?U and ?L of three parameters the turtle's position, heading, up or left vector where it stands.
-/// Errors: as interpret().
-void answer_queries(ModuleString& string, const LSystem& system, const TurtleOptions& options);
+/// False if cancelled; the string is then as it was. Errors: as interpret().
+bool answer_queries(ModuleString& string, const LSystem& system, const TurtleOptions& options, const RunOptions& run);
 
 }  // namespace cambium

@@ -15,7 +15,8 @@ using test::parsed;
 std::string drawn_symbols(const std::string& text, int steps) {
   const LSystem system = parsed(text);
   std::string out;
-  for (const auto& [name, count] : interpret(derived(system, steps), system, {}).skipped) out += name + std::to_string(count);
+  const Turtled turtled = interpret(derived(system, steps), system, {}, {}).value();
+  for (const auto& [name, count] : turtled.skipped) out += name + std::to_string(count);
   return out;
 }
 
@@ -161,7 +162,7 @@ TEST(CpfgManual, AHomomorphismMayHaveASeed) {
   DeriveOptions one, other;
   one.seed = 1;
   other.seed = 2;
-  EXPECT_EQ(interpret(*derive(system, one, {}), system, {}).total_length, interpret(*derive(system, other, {}), system, {}).total_length);
+  EXPECT_EQ(interpret(*derive(system, one, {}), system, {}, {})->total_length, interpret(*derive(system, other, {}), system, {}, {})->total_length);
 }
 
 // Decomposition: it follows every step, and the axiom; each section has its own maximum depth.
@@ -193,7 +194,7 @@ TEST(CpfgManual, ARightContextCanLeaveABranch) {
 // Text in a parameter is a label's, which only is drawn.
 TEST(CpfgManual, LabelsHaveTextForAParameter) {
   const LSystem system = parsed(grammar("A(2)", "A(x) --> F@L(\" %.f, (\", x)F"));
-  EXPECT_EQ(interpret(derived(system, 1), system, {}).skipped.at("@L"), 1u);
+  EXPECT_EQ(interpret(derived(system, 1), system, {}, {})->skipped.at("@L"), 1u);
 }
 
 // The macro processor is C's.

@@ -60,7 +60,7 @@ TEST(Derive, ADeepChainOfBranchesNeedsNoCallStack) {
                                         "A(n) : n < 18 --> A(n+1)A(n+1)\nA(n) : n == 18 --> [F"
                                         "]F"));
   const ModuleString string = derived(system, 19);
-  const Turtled turtled = interpret(string, system, {});
+  const Turtled turtled = interpret(string, system, {}, {}).value();
   EXPECT_EQ(turtled.skeleton.nodes.size(), (std::size_t{1} << 19) + 1);
   EXPECT_EQ(turtled.skeleton.nodes.back().position.z, 262144);
 }

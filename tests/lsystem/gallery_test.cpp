@@ -38,7 +38,7 @@ TEST(Gallery, EveryGrammarHasARecipeAndAPictureOnThePage) {
 /// A tree that some species is: its height in metres, and nothing in its grammar that the turtle has to correct.
 void expect_species(const std::string& name, double least_height, double most_height) {
   const LSystem system = LSystem::load(kGrammars / (name + ".l"));
-  const Turtled tree = interpret(derive(system, {}, {}).value(), system, {});
+  const Turtled tree = interpret(derive(system, {}, {}).value(), system, {}, {}).value();
   EXPECT_EQ(tree.radii_clamped, 0u) << name;
   EXPECT_TRUE(tree.skipped.empty()) << name << " leaves " << tree.skipped.begin()->first;
   double lowest = 1e9, highest = -1e9;

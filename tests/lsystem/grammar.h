@@ -35,14 +35,14 @@ inline std::map<std::string, std::size_t> counts(const ModuleString& string) {
 
 inline Turtled turtled(const std::string& axiom, const TurtleOptions& options = {}) {
   const LSystem system = parsed(grammar(axiom, ""));
-  return interpret(derived(system, 0), system, options);
+  return interpret(derived(system, 0), system, options, {}).value();
 }
 
 /// The error that parsing, deriving a few steps and interpreting `text` ends in; fails the test if there is none.
 inline std::optional<InputError> error_of(const std::string& text, int steps = 2) {
   try {
     const LSystem system = parsed(text);
-    interpret(derived(system, steps), system, {});
+    interpret(derived(system, steps), system, {}, {});
   } catch (const InputError& error) {
     return error;
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace cambium {
 namespace {
@@ -143,9 +144,36 @@ TEST(Interpret, ImpossibleDrawingsAreErrors) {
   EXPECT_THROW(turtled("f(1e308)F"), InputError);
 }
 
+TEST(Interpret, IsCancelledWithinTheWalkAndWithinTheHomomorphism) {
+  std::atomic<bool> cancel{true};
+  RunOptions run;
+  run.cancel = &cancel;
+  for (const std::string tail : {"", "homomorphism\nF --> FF\n"}) {
+    const LSystem drawn = test::parsed("lsystem: t\naxiom: F\nF --> F+F\n" + tail + "endlsystem\n");
+    ModuleString string = test::derived(drawn, 16);
+    EXPECT_FALSE(interpret(string, drawn, {}, run)) << tail;
+    cancel = false;
+    EXPECT_TRUE(interpret(string, drawn, {}, run)) << tail;
+    cancel = true;
+  }
+}
+
+TEST(Interpret, CancelledQueriesLeaveTheStringAsItWas) {
+  std::atomic<bool> cancel{true};
+  RunOptions run;
+  run.cancel = &cancel;
+  const LSystem system = test::parsed(test::grammar("F?P(7,8,9)B", "B --> BB"));  // only a long walk looks at the flag
+  ModuleString string = test::derived(system, 14);
+  string.parameters = {7, 8, 9};
+  EXPECT_FALSE(answer_queries(string, system, {}, run));
+  EXPECT_EQ(string.parameters, (std::vector<double>{7, 8, 9}));
+  EXPECT_TRUE(answer_queries(string, system, {}, {}));
+  EXPECT_EQ(string.parameters, (std::vector<double>{0, 0, 1}));
+}
+
 TEST(Interpret, ThePoplarOfTheExamplesIsAPoplar) {
   const LSystem poplar = LSystem::load(CAMBIUM_EXAMPLES "/poplar.l");
-  const Turtled result = interpret(derive(poplar, {}, {}).value(), poplar, {});
+  const Turtled result = interpret(derive(poplar, {}, {}).value(), poplar, {}, {}).value();
   const auto& nodes = result.skeleton.nodes;
   EXPECT_GT(nodes.size(), 2000u);
   EXPECT_LT(nodes.size(), 4500u);

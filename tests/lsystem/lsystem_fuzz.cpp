@@ -52,7 +52,7 @@ void derive_and_draw(std::string_view text) {
   if (const auto step = explain_step(system, options, run)) to_text(*step);
   TurtleOptions turtle;
   turtle.max_modules = 3000;
-  if (!run.cancelled()) interpret(*string, system, turtle);
+  if (!run.cancelled()) interpret(*string, system, turtle, run);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(LSystemParser, DecompositionAndHomomorphismHaveTheirOwnProductions) {
   const ModuleString string = derive(system, {}, {}).value();
   // 4 -> BB0; 1 stays; 2 -> B0.
   EXPECT_EQ(to_text(string), "BBBA(0)");
-  const Turtled turtled = interpret(string, system, {});
+  const Turtled turtled = interpret(string, system, {}, {}).value();
   EXPECT_EQ(turtled.skeleton.nodes.size(), 4u);
   EXPECT_EQ(turtled.total_length, 6);
 }

@@ -70,7 +70,7 @@ TEST(Mutation, BrokenGrammarsOnlyEverThrowInputErrors) {
       options.max_modules = 2000;
       TurtleOptions turtle;
       turtle.max_modules = 20000;
-      interpret(derive(system, options, {}).value(), system, turtle);
+      interpret(derive(system, options, {}).value(), system, turtle, {});
       ++fine;
     } catch (const InputError& error) {
       ++refused;

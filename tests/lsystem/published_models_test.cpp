@@ -87,7 +87,7 @@ TEST(PublishedModels, RowOfTrees) {
   for (int n = 0; n <= 6; ++n) {
     const ModuleString string = derived(row, n);
     EXPECT_EQ(counts(string)["F"], std::size_t{1} << (2 * n));
-    const Turtled turtled = interpret(string, row, {});
+    const Turtled turtled = interpret(string, row, {}, {}).value();
     EXPECT_NEAR(turtled.total_length, std::pow(1.916515, n), 1e-5 * std::pow(1.916515, n));
     EXPECT_NEAR(turtled.skeleton.nodes.back().position.x, std::pow(1.063933, n), 1e-5);
     EXPECT_NEAR(turtled.skeleton.nodes.back().position.z, 0, 1e-9);
@@ -98,7 +98,7 @@ TEST(PublishedModels, SelfSimilarBinaryTree) {
   const LSystem tree = parsed("#define R 1.456\n" + grammar("A(1)", "A(s) --> F(s)[+(85)A(s/R)][-(85)A(s/R)]"));
   const ModuleString string = derived(tree, 11);
   EXPECT_EQ(counts(string)["F"], 2047u);
-  const Turtled turtled = interpret(string, tree, {});
+  const Turtled turtled = interpret(string, tree, {}, {}).value();
   EXPECT_NEAR(turtled.total_length, 85.2495, 5e-5);
   EXPECT_EQ(turtled.skeleton.nodes.size(), 2048u);
 }
@@ -113,7 +113,7 @@ TEST(PublishedModels, HondaTreesOfFigure26) {
     EXPECT_EQ(count["A"], 1u) << name;
     EXPECT_EQ(count["B"], 341u) << name;
     EXPECT_EQ(count["C"], 682u) << name;
-    const Turtled turtled = interpret(string, system, {});
+    const Turtled turtled = interpret(string, system, {}, {}).value();
     EXPECT_NEAR(turtled.total_length, length, 6e-4) << name;
     EXPECT_NEAR(turtled.last_width, 0.441341, 6e-7) << name;
     EXPECT_EQ(turtled.skeleton.nodes.size(), 1024u) << name;
@@ -126,7 +126,7 @@ TEST(PublishedModels, SympodialTreesOfFigure27) {
       {"abop_2_7a", 181.585}, {"abop_2_7b", 181.585}, {"abop_2_7c", 286.571}, {"abop_2_7d", 286.571}};
   for (const auto& [name, length] : rows) {
     const LSystem system = model(name);
-    EXPECT_NEAR(interpret(derived_as_written(system), system, {}).total_length, length, 6e-4) << name;
+    EXPECT_NEAR(interpret(derived_as_written(system), system, {}, {})->total_length, length, 6e-4) << name;
   }
 }
 
@@ -140,7 +140,7 @@ TEST(PublishedModels, TernaryTreesOfFigure28) {
     TurtleOptions options;
     options.tropism = tropism;
     options.elasticity = elasticity;
-    const Turtled turtled = interpret(derived_as_written(system), system, options);
+    const Turtled turtled = interpret(derived_as_written(system), system, options, {}).value();
     EXPECT_EQ(turtled.skeleton.nodes.size(), f + 1) << name;
     EXPECT_EQ(turtled.radii_clamped, 0u) << name;
   }

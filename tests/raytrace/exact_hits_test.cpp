@@ -272,7 +272,7 @@ TEST(ExactHits, OnThePoplar) {
   prune.where.branch = 4;
   prune.distance = 0.12;
   options.prunes = {prune};
-  const Field field(surface(interpret(*derive(system, {}, {}), system, {}).skeleton, options).tree);
+  const Field field(surface(interpret(*derive(system, {}, {}), system, {}, {})->skeleton, options).tree);
   const Tracer tracer(*cover_surface(field, tracing_cells(), {}));
   const Count count = trace_all({tracer, SampledSurface(field)}, is_exhaustive() ? 100'000 : 1'000, 2);
   expect_exact(count, "poplar");

@@ -1,0 +1,55 @@
+#include "lsystem/skeleton_pen.h"
+
+#include <limits>
+#include <optional>
+
+namespace cambium {
+namespace {
+
+// A position counts as that of a node within this part of its coordinates: `f(1)|f(1)` comes back to it but for rounding.
+constexpr double kSamePlace = 1e-9;
+
+}  // namespace
+
+void SkeletonPen::lift(Place& place) {
+  place.start = static_cast<std::uint32_t>(starts_.size());
+  starts_.push_back(-1);
+}
+
+bool SkeletonPen::full() const {
+  // A piece that begins adds two.
+  return skeleton_.nodes.size() + 2 > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+}
+
+bool SkeletonPen::stands_at(std::int32_t node, const Vec3& position) const {
+  if (node < 0) return false;
+  const Vec3& p = skeleton_.nodes[static_cast<std::size_t>(node)].position;
+  return glm::length(p - position) <= kSamePlace * (1.0 + glm::length(p));
+}
+
+std::int32_t SkeletonPen::add(const SkeletonNode& node) {
+  skeleton_.nodes.push_back(node);
+  return static_cast<std::int32_t>(skeleton_.nodes.size() - 1);
+}
+
+void SkeletonPen::draw(Place& place, const Vec3& from, const Vec3& tip, double radius) {
+  bool lateral = place.lateral;
+  std::int32_t parent = place.node;
+  if (!stands_at(parent, from)) {
+    parent = starts_[place.start];
+    if (!stands_at(parent, from)) {
+      parent = add({from, radius, -1, std::nullopt, std::nullopt});
+      starts_[place.start] = parent;
+      lateral = false;
+    }
+  }
+  const double parent_radius = skeleton_.nodes[static_cast<std::size_t>(parent)].radius;
+  if (radius > parent_radius) {
+    radius = parent_radius;
+    ++radii_clamped_;
+  }
+  place.node = add({tip, radius, parent, radius, lateral});
+  place.lateral = false;
+}
+
+}  // namespace cambium

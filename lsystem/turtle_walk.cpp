@@ -1,0 +1,197 @@
+#include "lsystem/turtle_walk.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace cambium {
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180.0;
+constexpr int kTurnsBetweenRepairs = 64;
+constexpr std::size_t kLooksBetweenPolls = 1024;
+
+std::string number_text(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 9).ptr;
+  return {text, end};
+}
+
+}  // namespace
+
+TurtleWalk::TurtleWalk(const ModuleString& string, const std::string& file, const TurtleOptions& options,
+                       const RunOptions& run, TurtleAnswers* answers)
+    : string_(string), file_(file), options_(options), run_(run), answers_(answers) {
+  for (const std::string& name : string.names) actions_.push_back(turtle_action(name));
+  skipped_.assign(string.names.size(), 0);
+  state_.width = options.width;
+  state_.elasticity = options.elasticity;
+  state_.tropism = options.tropism;
+  out_.last_width = options.width;
+}
+
+std::optional<Turtled> TurtleWalk::walk() {
+  for (index_ = 0; index_ < string_.size() && !cancelled(); ++index_) obey(actions_[string_.symbol[index_]]);
+  if (cancelled_) return std::nullopt;
+  for (std::size_t i = 0; i < skipped_.size(); ++i)
+    if (skipped_[i] > 0) out_.skipped[string_.names[i]] = skipped_[i];
+  out_.radii_clamped = pen_.radii_clamped();
+  out_.skeleton = std::move(pen_).take();
+  return std::move(out_);
+}
+
+double TurtleWalk::angle() const {
+  if (count() > 0) return parameter(0) * kRadian;
+  return options_.angle != 0 ? options_.angle : std::numbers::pi / 2;
+}
+
+bool TurtleWalk::cancelled() {
+  if (!cancelled_ && ++looks_ % kLooksBetweenPolls == 0) cancelled_ = run_.cancelled();
+  return cancelled_;
+}
+
+void TurtleWalk::fail(std::string found, std::string expected) const {
+  throw InputError({file_, 0, 0}, std::move(found) + " in module " + std::to_string(index_ + 1) + " of the derived string",
+                   std::move(expected));
+}
+
+void TurtleWalk::obey(TurtleAction action) {
+  switch (action) {
+    case TurtleAction::kSkip: return skip();
+    case TurtleAction::kSilent: return;
+    case TurtleAction::kDraw: return draw();
+    case TurtleAction::kMove: return move(length());
+    case TurtleAction::kPlace:
+      if (count() != 3) return skip();
+      return place({parameter(0), parameter(1), parameter(2)});
+    case TurtleAction::kOrient: return orient();
+    case TurtleAction::kYawLeft: return turn(&TurtleFrame::yaw, angle());
+    case TurtleAction::kYawRight: return turn(&TurtleFrame::yaw, -angle());
+    case TurtleAction::kPitchDown: return turn(&TurtleFrame::pitch, angle());
+    case TurtleAction::kPitchUp: return turn(&TurtleFrame::pitch, -angle());
+    case TurtleAction::kRollRight: return turn(&TurtleFrame::roll, angle());
+    case TurtleAction::kRollLeft: return turn(&TurtleFrame::roll, -angle());
+    case TurtleAction::kTurnBack: return state_.frame.turn_back();
+    case TurtleAction::kLevel: return level_or_return();
+    case TurtleAction::kElasticity:
+      if (count() == 0) return skip();
+      state_.elasticity = parameter(count() - 1);
+      return;
+    case TurtleAction::kTropism:
+      if (count() != 3) return skip();
+      state_.tropism = {parameter(0), parameter(1), parameter(2)};
+      return;
+    case TurtleAction::kThinner: return set_width(parameter_or(state_.width * options_.width_factor));
+    case TurtleAction::kThicker: return set_width(parameter_or(state_.width / options_.width_factor));
+    case TurtleAction::kOpen: return open_bracket();
+    case TurtleAction::kClose: return close_bracket();
+    case TurtleAction::kCut: return cut();
+    case TurtleAction::kCall: return call();
+    case TurtleAction::kPolygonOpen:
+      skip();
+      ++polygons_;
+      return;
+    case TurtleAction::kPolygonClose:
+      if (polygons_ > 0) --polygons_;
+      return;
+    case TurtleAction::kAskPosition: return answer(state_.position);
+    case TurtleAction::kAskHeading: return answer(state_.frame.heading);
+    case TurtleAction::kAskUp: return answer(state_.frame.up);
+    case TurtleAction::kAskLeft: return answer(state_.frame.left);
+  }
+}
+
+void TurtleWalk::turn(void (TurtleFrame::*rotation)(double), double radians) {
+  (state_.frame.*rotation)(radians);
+  if (++state_.turns < kTurnsBetweenRepairs) return;
+  state_.turns = 0;
+  state_.frame.restore_orthonormality();
+}
+
+void TurtleWalk::orient() {
+  const bool with_up = count() == 6;
+  const Vec3 up = with_up ? Vec3(parameter(3), parameter(4), parameter(5)) : Vec3(0.0);
+  if ((count() != 3 && !with_up) ||
+      !state_.frame.orient({parameter(0), parameter(1), parameter(2)}, with_up ? &up : nullptr))
+    skip();
+}
+
+void TurtleWalk::check_position(const Vec3& p) const {
+  // Half the range of a double, squared lengths included.
+  if (!(std::abs(p.x) < 1e150 && std::abs(p.y) < 1e150 && std::abs(p.z) < 1e150))
+    fail("a position beyond 1e150 m", "a turtle that stays within reach");
+}
+
+void TurtleWalk::place(const Vec3& position) {
+  check_position(position);
+  if (position == state_.position) return;
+  state_.position = position;
+  pen_.lift(state_.pen);
+}
+
+void TurtleWalk::draw() {
+  const double length = this->length();
+  if (polygons_ > 0) return move(length);
+  if (length == 0) {
+    ++out_.skipped["F(0)"];
+    return;
+  }
+  if (length < 0) fail("a length of " + number_text(length), "a length of 0 or more");
+  const Vec3 tip = state_.position + length * state_.frame.heading;
+  check_position(tip);
+  if (pen_.full()) fail("more than 2147483647 nodes", "fewer derivation steps");
+  pen_.draw(state_.pen, state_.position, tip, 0.5 * state_.width * options_.width_unit);
+  state_.position = tip;
+  out_.total_length += length;
+  state_.frame.bend(state_.tropism, state_.elasticity);
+}
+
+void TurtleWalk::set_width(double width) {
+  if (!(width > 0) || !std::isfinite(width)) fail("a width of " + number_text(width), "a width above 0");
+  state_.width = out_.last_width = width;
+}
+
+void TurtleWalk::open_bracket() {
+  brackets_.push_back({state_, polygons_});
+  state_.pen.lateral = true;
+}
+
+void TurtleWalk::close_bracket() {
+  if (brackets_.empty()) fail("a ']'", "a '[' before it");
+  state_ = brackets_.back().state;
+  polygons_ = brackets_.back().polygons;
+  brackets_.pop_back();
+}
+
+// The rest of the branch: up to, not past, the ']' that closes it.
+void TurtleWalk::cut() {
+  std::size_t depth = 0;
+  while (index_ + 1 < string_.size() && !cancelled()) {
+    const TurtleAction next = actions_[string_.symbol[index_ + 1]];
+    if (next == TurtleAction::kClose && depth == 0) return;
+    if (next == TurtleAction::kOpen) ++depth;
+    if (next == TurtleAction::kClose) --depth;
+    ++index_;
+  }
+}
+
+// `?(label)` and `?(label,scale)` up to their `$` are a sub-L-system's, whose lengths are scaled.
+void TurtleWalk::call() {
+  if (count() == 0) return skip();
+  callers_.push_back(scale_);
+  if (count() > 1) scale_ *= parameter(1);
+}
+
+void TurtleWalk::level_or_return() {
+  if (callers_.empty() || string_.names[string_.symbol[index_]] != "$") return state_.frame.level();
+  scale_ = callers_.back();
+  callers_.pop_back();
+}
+
+void TurtleWalk::answer(const Vec3& value) {
+  if (!answers_ || count() != 3) return skip();
+  answers_->emplace(string_.key[index_], value);
+}
+
+}  // namespace cambium

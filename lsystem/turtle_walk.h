@@ -1,0 +1,88 @@
+// The turtle's walk over a string of modules: what interpret() does after the homomorphism.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "lsystem/lsystem.h"
+#include "lsystem/skeleton_pen.h"
+#include "lsystem/turtle.h"
+#include "lsystem/turtle_actions.h"
+
+namespace cambium {
+
+/// What the turtle says at queries, by the keys of their modules.
+using TurtleAnswers = std::unordered_map<std::uint64_t, Vec3>;
+
+class TurtleWalk {
+ public:
+  /// `file` is where errors are said to be; `answers` null: nobody asks. All references outlive the walk.
+  TurtleWalk(const ModuleString& string, const std::string& file, const TurtleOptions& options, const RunOptions& run,
+             TurtleAnswers* answers);
+
+  /// Once. nullopt if cancelled. Errors: see interpret().
+  std::optional<Turtled> walk();
+
+ private:
+  /// What brackets save.
+  struct State {
+    TurtleFrame frame;
+    Vec3 position{0.0};
+    double width = 0;
+    double elasticity = 0;
+    Vec3 tropism{0.0};
+    SkeletonPen::Place pen;
+    int turns = 0;  // since the frame was last repaired
+  };
+  struct Bracket {
+    State state;
+    int polygons;
+  };
+
+  std::size_t count() const { return string_.first[index_ + 1] - string_.first[index_]; }
+  double parameter(std::size_t i) const { return string_.parameters[string_.first[index_] + i]; }
+  double parameter_or(double fallback) const { return count() > 0 ? parameter(0) : fallback; }
+  double length() const { return parameter_or(options_.step) * scale_; }
+  double angle() const;
+  void skip() { ++skipped_[string_.symbol[index_]]; }
+  bool cancelled();
+  [[noreturn]] void fail(std::string found, std::string expected) const;
+
+  void obey(TurtleAction action);
+  void turn(void (TurtleFrame::*rotation)(double), double radians);
+  void orient();
+  void check_position(const Vec3& position) const;
+  void place(const Vec3& position);
+  void move(double length) { place(state_.position + length * state_.frame.heading); }
+  void draw();
+  void set_width(double width);
+  void open_bracket();
+  void close_bracket();
+  void cut();
+  void call();
+  void level_or_return();
+  void answer(const Vec3& value);
+
+  const ModuleString& string_;
+  const std::string& file_;
+  const TurtleOptions& options_;
+  const RunOptions& run_;
+  TurtleAnswers* const answers_;
+  std::vector<TurtleAction> actions_;  // by symbol
+  std::vector<std::size_t> skipped_;   // by symbol
+  std::size_t index_ = 0;              // of the module being obeyed
+  std::size_t looks_ = 0;              // at modules, for polls of run_
+  bool cancelled_ = false;
+  State state_;
+  SkeletonPen pen_;
+  int polygons_ = 0;                   // how deep in { }
+  double scale_ = 1;                   // of lengths, by the sub-L-systems around
+  std::vector<double> callers_;        // their callers' scales
+  std::vector<Bracket> brackets_;
+  Turtled out_;
+};
+
+}  // namespace cambium

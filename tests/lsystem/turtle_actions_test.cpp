@@ -1,0 +1,19 @@
+#include "lsystem/turtle_actions.h"
+
+#include <gtest/gtest.h>
+
+namespace cambium {
+namespace {
+
+TEST(TurtleActions, SeveralSymbolsMayMeanOneAction) {
+  EXPECT_EQ(turtle_action("F"), TurtleAction::kDraw);
+  EXPECT_EQ(turtle_action("G"), TurtleAction::kDraw);
+  EXPECT_EQ(turtle_action("$"), turtle_action("@v"));
+}
+
+TEST(TurtleActions, WhatTheTurtleDoesNotKnowIsSkipped) {
+  for (const char* symbol : {"A", "@L", "~", "", "FF", "?Q"}) EXPECT_EQ(turtle_action(symbol), TurtleAction::kSkip) << symbol;
+}
+
+}  // namespace
+}  // namespace cambium
