@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 namespace cambium {
@@ -171,20 +172,35 @@ BarkTexel<double> averaged(BarkStyle style, double open) {
   return mixed_texels(kNothing, sum, 1.0 / (kSide * kSide));
 }
 
-/// The same from a table, worked out once.
+/// The means of all styles, each worked out when it is first asked for: that takes some milliseconds.
+class MeanTexels {
+ public:
+  BarkTexel<double> at(BarkStyle style, double open) {
+    const double place = std::clamp(open, 0.0, 1.0) * kSteps;
+    const auto step = static_cast<std::size_t>(place);
+    const double past = place - static_cast<double>(step);
+    return past > 0 ? mixed_texels(known(style, step), known(style, step + 1), past) : known(style, step);
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 4;
+  struct Entry {
+    std::once_flag made;
+    BarkTexel<double> mean;
+  };
+
+  const BarkTexel<double>& known(BarkStyle style, std::size_t step) {
+    Entry& entry = entries_[static_cast<std::size_t>(style)][step];
+    std::call_once(entry.made, [&] { entry.mean = averaged(style, std::max(1e-3, static_cast<double>(step) / kSteps)); });
+    return entry.mean;
+  }
+
+  std::array<std::array<Entry, kSteps + 1>, 4> entries_;
+};
+
 BarkTexel<double> mean_texel(BarkStyle style, double open) {
-  constexpr int kSteps = 4;
-  static const auto table = [] {
-    std::array<std::array<BarkTexel<double>, kSteps + 1>, 4> means;
-    for (std::size_t s = 0; s < means.size(); ++s)
-      for (std::size_t k = 0; k <= kSteps; ++k)
-        means[s][k] = averaged(static_cast<BarkStyle>(s), std::max(1e-3, static_cast<double>(k) / kSteps));
-    return means;
-  }();
-  const double at = std::clamp(open, 0.0, 1.0) * kSteps;
-  const auto k = static_cast<std::size_t>(std::min<double>(at, kSteps - 1));
-  const auto& means = table[static_cast<std::size_t>(style)];
-  return mixed_texels(means[k], means[k + 1], at - static_cast<double>(k));
+  static MeanTexels means;
+  return means.at(style, open);
 }
 
 /// One style at one octave of the girth: a lattice with its own number of columns and its own metres per row.
@@ -196,14 +212,16 @@ BarkTexel<N> at_octave(BarkStyle style, const BarkPatternKind& kind, double octa
   const double wanted = growth.width * kind.scale * std::exp2(growth.power * (octave + 0.5 - kUsualOctave));
   const double columns = std::clamp(std::round(girth / wanted), 4.0, 4096.0), width = girth / columns;
   const double near = 1 - smooth(0.25, 1.0, footprint / width);
-  const BarkTexel<double> mean = mean_texel(style, open);
-  const BarkTexel<N> far{N(mean.relief * width), mean.height, mean.outer, mean.inner, mean.warm, mean.roughness, 0};
-  if (!(near > 0)) return far;
+  const auto far = [&]() -> BarkTexel<N> {
+    const BarkTexel<double> mean = mean_texel(style, open);
+    return {N(mean.relief * width), mean.height, mean.outer, mean.inner, mean.warm, mean.roughness, 0};
+  };
+  if (!(near > 0)) return far();
   const std::uint64_t seed = hash_of(kind.seed, static_cast<std::uint64_t>(octave + 1024), static_cast<std::uint64_t>(style));
   const BarkLattice<N> at{u * columns, v * (1 / (width * growth.elongation)), width, growth.elongation,
                           static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(seed), footprint};
   const BarkTexel<N> texel = styled(style, at, open);
-  return near < 1 ? mixed_texels(far, texel, near) : texel;
+  return near < 1 ? mixed_texels(far(), texel, near) : texel;
 }
 
 // A pattern's height in metres must follow the girth, but v / radius would shear the pattern wherever a branch tapers. So it is
