@@ -116,7 +116,7 @@ std::string to_text(const ExplainedStep& step);
 
 struct Turtled {
   Skeleton skeleton;                       ///< one internode per F
-  Foliage foliage;                         ///< polygons and named surfaces
+  Foliage foliage;                         ///< outlines, named surfaces, spheres and discs
   double total_length = 0;                 ///< of F, metres
   double last_width = 0;                   ///< the last width set
   std::map<std::string, std::size_t> skipped;  ///< symbols without meaning here, with their counts
@@ -125,9 +125,16 @@ struct Turtled {
 
 /// Walks the turtle over the string, after the homomorphism (lsystem.md, Turtle). F and G draw: one node at the end of each, and
 /// a node without parent where a piece begins. A piece begins where the turtle was moved away (f, g, @M) from what it last drew;
-/// pieces that begin at one unmoved start share its node. Nothing inside { } is drawn. An F of length 0 is skipped (counted as
-/// "F(0)"). `lateral` is set: true for the first internode behind a `[`. `radius` and `base_radius` are half the width when
-/// drawn, or the parent's radius if that is smaller (counted in radii_clamped).
+/// pieces that begin at one unmoved start share its node. An F of length 0 is skipped (counted as "F(0)"). `lateral` is set: true
+/// for the first internode behind a `[`. `radius` and `base_radius` are half the width when drawn, or the parent's radius if that
+/// is smaller (counted in radii_clamped).
+///
+/// Between { and }, whatever brackets are between them, F and f end in corners of an outline, `.` is one, G and g only move, and
+/// nothing else is drawn; { } inside are outlines of their own. An outline is an organ in the frame of the turtle at its {, held
+/// where the turtle stood; equal ones, also of different sizes, share a shape. One without an area is left out (counted as "}"),
+/// as is one that is not closed (as "{"). ~x(s) and ~x(sx,sy,sz) place the surface x; @O(d) a sphere, @o(d) and @c(d) discs, of
+/// the line's width if without parameter. `;` and `'` raise the colour or set it, `,` lowers it, round after 255; it begins as 0.
+///
 /// @M(x,y,z) places, @R(hx,hy,hz[,ux,uy,uz]) orients; @Ts(e) and @T(e) set the elasticity, @Td(x,y,z) the tropism.
 /// Looks at run.cancel every few milliseconds; only the homomorphism uses more than one thread. nullopt if cancelled.
 /// Errors: InputError (place: the file) for a negative length, a width of 0 or less, a position that is not finite, more nodes

@@ -6,13 +6,15 @@
 namespace cambium {
 
 enum class TurtleAction {
-  kSkip, kSilent,
-  kDraw, kMove, kPlace, kOrient,
+  kSkip,
+  kDraw, kMove,            ///< F, f: each ends in a corner of the outline around it, if there is one
+  kDrawBetween, kMoveBetween,  ///< G, g: the same without a corner
+  kPlace, kOrient,
   kYawLeft, kYawRight, kPitchDown, kPitchUp, kRollLeft, kRollRight, kTurnBack, kLevel,
   kElasticity, kTropism,
-  kThinner, kThicker,
+  kThinner, kThicker, kNextColor, kLastColor,
   kOpen, kClose, kCut, kCall,
-  kPolygonOpen, kPolygonClose,
+  kOutlineOpen, kOutlineClose, kCorner, kSurface, kSphere, kDisc,
   kAskPosition, kAskHeading, kAskUp, kAskLeft
 };
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -11,6 +12,7 @@ namespace {
 constexpr double kRadian = std::numbers::pi / 180.0;
 constexpr int kTurnsBetweenRepairs = 64;
 constexpr std::size_t kLooksBetweenPolls = 1024;
+constexpr std::uint32_t kColors = 256;  // in cpfg's colour map
 
 std::string number_text(double value) {
   char text[32];
@@ -33,11 +35,13 @@ TurtleWalk::TurtleWalk(const ModuleString& string, const std::string& file, cons
 
 std::optional<Turtled> TurtleWalk::walk() {
   for (index_ = 0; index_ < string_.size() && !cancelled(); ++index_) obey(actions_[string_.symbol[index_]]);
+  drop_outlines(0);
   if (cancelled_) return std::nullopt;
   for (std::size_t i = 0; i < skipped_.size(); ++i)
     if (skipped_[i] > 0) out_.skipped[string_.names[i]] = skipped_[i];
   out_.radii_clamped = pen_.radii_clamped();
   out_.skeleton = std::move(pen_).take();
+  out_.foliage = std::move(foliage_).take();
   return std::move(out_);
 }
 
@@ -59,9 +63,15 @@ void TurtleWalk::fail(std::string found, std::string expected) const {
 void TurtleWalk::obey(TurtleAction action) {
   switch (action) {
     case TurtleAction::kSkip: return skip();
-    case TurtleAction::kSilent: return;
-    case TurtleAction::kDraw: return draw();
-    case TurtleAction::kMove: return move(length());
+    case TurtleAction::kDraw:
+    case TurtleAction::kDrawBetween:
+      outlines_.empty() ? draw() : move(length());
+      if (action == TurtleAction::kDraw) record_corner();
+      return;
+    case TurtleAction::kMove:
+      move(length());
+      return record_corner();
+    case TurtleAction::kMoveBetween: return move(length());
     case TurtleAction::kPlace:
       if (count() != 3) return skip();
       return place({parameter(0), parameter(1), parameter(2)});
@@ -84,17 +94,18 @@ void TurtleWalk::obey(TurtleAction action) {
       return;
     case TurtleAction::kThinner: return set_width(parameter_or(state_.width * options_.width_factor));
     case TurtleAction::kThicker: return set_width(parameter_or(state_.width / options_.width_factor));
+    case TurtleAction::kNextColor: return change_color(1);
+    case TurtleAction::kLastColor: return change_color(kColors - 1);
     case TurtleAction::kOpen: return open_bracket();
     case TurtleAction::kClose: return close_bracket();
     case TurtleAction::kCut: return cut();
     case TurtleAction::kCall: return call();
-    case TurtleAction::kPolygonOpen:
-      skip();
-      ++polygons_;
-      return;
-    case TurtleAction::kPolygonClose:
-      if (polygons_ > 0) --polygons_;
-      return;
+    case TurtleAction::kOutlineOpen: return open_outline();
+    case TurtleAction::kOutlineClose: return close_outline();
+    case TurtleAction::kCorner: return record_corner();
+    case TurtleAction::kSurface: return surface();
+    case TurtleAction::kSphere: return note(foliage_.add_sphere(site(), diameter()));
+    case TurtleAction::kDisc: return note(foliage_.add_disc(site(), diameter()));
     case TurtleAction::kAskPosition: return answer(state_.position);
     case TurtleAction::kAskHeading: return answer(state_.frame.heading);
     case TurtleAction::kAskUp: return answer(state_.frame.up);
@@ -132,7 +143,6 @@ void TurtleWalk::place(const Vec3& position) {
 
 void TurtleWalk::draw() {
   const double length = this->length();
-  if (polygons_ > 0) return move(length);
   if (length == 0) {
     ++out_.skipped["F(0)"];
     return;
@@ -152,15 +162,71 @@ void TurtleWalk::set_width(double width) {
   state_.width = out_.last_width = width;
 }
 
+void TurtleWalk::change_color(std::uint32_t steps_up) {
+  if (count() == 0) {
+    state_.color = (state_.color + steps_up) % kColors;
+  } else if (parameter(0) >= 0 && parameter(0) <= std::numeric_limits<std::int32_t>::max()) {
+    state_.color = static_cast<std::uint32_t>(parameter(0));
+  } else {
+    skip();
+  }
+}
+
+FoliageCollector::Site TurtleWalk::site() const {
+  FoliageCollector::Site out;
+  out.position = state_.position;
+  out.left = state_.frame.left;
+  out.heading = state_.frame.heading;
+  out.up = state_.frame.up;
+  out.node = pen_.nearest_node(state_.pen);
+  out.color = state_.color;
+  return out;
+}
+
+void TurtleWalk::note(FoliageCollector::Outcome outcome) {
+  if (outcome == FoliageCollector::Outcome::kNothing) skip();
+  if (outcome == FoliageCollector::Outcome::kCancelled) cancelled_ = true;
+}
+
+// As in cpfg a polygon has the colour in which it is closed.
+void TurtleWalk::close_outline() {
+  if (outlines_.empty()) return skip();
+  Outline& outline = outlines_.back();
+  outline.site.color = state_.color;
+  note(foliage_.add_outline(outline.site, outline.corners, run_));
+  outlines_.pop_back();
+}
+
+void TurtleWalk::record_corner() {
+  if (outlines_.empty()) return;
+  auto& [site, corners] = outlines_.back();
+  const Vec3 from_site = state_.position - site.position;
+  corners.push_back({glm::dot(from_site, site.left), glm::dot(from_site, site.heading), glm::dot(from_site, site.up)});
+}
+
+void TurtleWalk::drop_outlines(std::size_t kept) {
+  if (outlines_.size() <= kept) return;
+  out_.skipped["{"] += outlines_.size() - kept;
+  outlines_.resize(kept);
+}
+
+void TurtleWalk::surface() {
+  const std::string& symbol = string_.names[string_.symbol[index_]];
+  const Vec3 stretch = count() < 3 ? Vec3(parameter_or(1)) : Vec3(parameter(0), parameter(1), parameter(2));
+  note(foliage_.add_surface(site(), symbol.substr(1), scale_ * stretch));
+}
+
+double TurtleWalk::diameter() const { return count() > 0 ? parameter(0) * scale_ : state_.width * options_.width_unit; }
+
 void TurtleWalk::open_bracket() {
-  brackets_.push_back({state_, polygons_});
+  brackets_.push_back({state_, outlines_.size()});
   state_.pen.lateral = true;
 }
 
 void TurtleWalk::close_bracket() {
   if (brackets_.empty()) fail("a ']'", "a '[' before it");
   state_ = brackets_.back().state;
-  polygons_ = brackets_.back().polygons;
+  drop_outlines(brackets_.back().outlines);
   brackets_.pop_back();
 }
 

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "lsystem/foliage_collector.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/skeleton_pen.h"
 #include "lsystem/turtle.h"
@@ -35,11 +36,17 @@ class TurtleWalk {
     double elasticity = 0;
     Vec3 tropism{0.0};
     SkeletonPen::Place pen;
+    std::uint32_t color = 0;
     int turns = 0;  // since the frame was last repaired
   };
   struct Bracket {
     State state;
-    int polygons;
+    std::size_t outlines;  // that were open
+  };
+  /// Between { and }: corners in the coordinates of the turtle at the {.
+  struct Outline {
+    FoliageCollector::Site site;
+    std::vector<Vec3> corners;
   };
 
   std::size_t count() const { return string_.first[index_ + 1] - string_.first[index_]; }
@@ -59,6 +66,15 @@ class TurtleWalk {
   void move(double length) { place(state_.position + length * state_.frame.heading); }
   void draw();
   void set_width(double width);
+  void change_color(std::uint32_t steps_up);
+  FoliageCollector::Site site() const;
+  void note(FoliageCollector::Outcome outcome);
+  void open_outline() { outlines_.push_back({site(), {}}); }
+  void close_outline();
+  void record_corner();
+  void drop_outlines(std::size_t kept);
+  void surface();
+  double diameter() const;
   void open_bracket();
   void close_bracket();
   void cut();
@@ -78,7 +94,8 @@ class TurtleWalk {
   bool cancelled_ = false;
   State state_;
   SkeletonPen pen_;
-  int polygons_ = 0;                   // how deep in { }
+  FoliageCollector foliage_;
+  std::vector<Outline> outlines_;      // that are open; brackets do not close them
   double scale_ = 1;                   // of lengths, by the sub-L-systems around
   std::vector<double> callers_;        // their callers' scales
   std::vector<Bracket> brackets_;
