@@ -1,9 +1,12 @@
 #include "cli/picture_files.h"
 
+#include "raytrace/image_file.h"
+
 namespace cambium {
 
 PictureFiles::PictureFiles(const std::filesystem::path& path, const ImageFormat& format, const std::set<Aov>& aovs)
     : format_(format), path_(path), image_(path) {
+  require_image_files();
   if (format.extension == ".exr") return;
   for (const Aov aov : aovs) {
     std::filesystem::path beside = path;

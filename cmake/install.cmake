@@ -22,6 +22,7 @@ foreach(folder blobtree skeletons lsystem polygonize raytrace)
   install(TARGETS cambium_${folder} EXPORT cambium-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
                                                            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endforeach()
+install(TARGETS cambium_image_codec LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT cambium-targets NAMESPACE cambium:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/cambium-config.cmake.in ${PROJECT_BINARY_DIR}/cambium-config.cmake
                               INSTALL_DESTINATION ${package_dir})

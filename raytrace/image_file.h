@@ -10,6 +10,10 @@
 
 namespace cambium {
 
+/// Loads what reads and writes images, the plug-in libcambium_image_codec.so, unless it is there already: the functions below do it
+/// too, but perhaps after minutes of work. Errors, also theirs: std::runtime_error if it cannot be found.
+void require_image_files();
+
 /// Row-major from the top left.
 struct Pixels {
   int width = 0, height = 0, channels = 0;

@@ -40,7 +40,13 @@ execute_process(COMMAND ${WORK}/consumer/build/points OUTPUT_FILE ${WORK}/points
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "the field's example failed")
 endif()
-foreach(made tiny.ply tiny.obj points.txt)
+# The installed program finds the installed plug-in; the build's would do as well, so ask the loader.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_DEBUG=files ${WORK}/prefix/bin/cambium render ${WORK}/tiny.l -o ${WORK}/tiny.png
+                        --size 64x64 --samples 1 RESULT_VARIABLE result ERROR_VARIABLE loaded OUTPUT_QUIET)
+if(NOT result EQUAL 0 OR NOT loaded MATCHES "calling init: [^\n]*/prefix/[^\n]*libcambium_image_codec.so")
+  message(FATAL_ERROR "the installed program (status ${result}) does not load the installed libcambium_image_codec.so")
+endif()
+foreach(made tiny.png tiny.ply tiny.obj points.txt)
   file(SIZE ${WORK}/${made} size)
   if(size LESS 1000)
     message(FATAL_ERROR "${made} has only ${size} bytes")
