@@ -115,9 +115,9 @@ std::string to_text(const ModuleString& string, std::size_t begin, std::size_t e
 std::string to_text(const ExplainedStep& step);
 
 struct Turtled {
-  Skeleton skeleton;                       ///< one internode per F
+  Skeleton skeleton;                       ///< one internode per F, and those of generalized cylinders
   Foliage foliage;                         ///< outlines, named surfaces, spheres and discs
-  double total_length = 0;                 ///< of F, metres
+  double total_length = 0;                 ///< of all internodes, metres
   double last_width = 0;                   ///< the last width set
   std::map<std::string, std::size_t> skipped;  ///< symbols without meaning here, with their counts
   std::size_t radii_clamped = 0;           ///< radii that rose towards the tip
@@ -134,6 +134,9 @@ struct Turtled {
 /// where the turtle stood; equal ones, also of different sizes, share a shape. One without an area is left out (counted as "}"),
 /// as is one that is not closed (as "{"). ~x(s) and ~x(sx,sy,sz) place the surface x; @O(d) a sphere, @o(d) and @c(d) discs, of
 /// the line's width if without parameter. `;` and `'` raise the colour or set it, `,` lowers it, round after 255; it begins as 0.
+///
+/// @Gs, @Gc and @Ge, and { with a parameter of 1 to 4, draw internodes along a smooth curve: see generalized_cylinder.h. F and G
+/// between them only move.
 ///
 /// @M(x,y,z) places, @R(hx,hy,hz[,ux,uy,uz]) orients; @Ts(e) and @T(e) set the elasticity, @Td(x,y,z) the tropism.
 /// Looks at run.cancel every few milliseconds; only the homomorphism uses more than one thread. nullopt if cancelled.

@@ -1,5 +1,6 @@
 #include "lsystem/skeleton_pen.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -32,23 +33,20 @@ std::int32_t SkeletonPen::add(const SkeletonNode& node) {
   return static_cast<std::int32_t>(skeleton_.nodes.size() - 1);
 }
 
-void SkeletonPen::draw(Place& place, const Vec3& from, const Vec3& tip, double radius) {
+void SkeletonPen::draw(Place& place, const AxisSample& from, const AxisSample& tip) {
   bool lateral = place.lateral;
   std::int32_t parent = place.node;
-  if (!stands_at(parent, from)) {
+  if (!stands_at(parent, from.position)) {
     parent = starts_[place.start];
-    if (!stands_at(parent, from)) {
-      parent = add({from, radius, -1, std::nullopt, std::nullopt});
+    if (!stands_at(parent, from.position)) {
+      parent = add({from.position, from.radius, -1, std::nullopt, std::nullopt});
       starts_[place.start] = parent;
       lateral = false;
     }
   }
   const double parent_radius = skeleton_.nodes[static_cast<std::size_t>(parent)].radius;
-  if (radius > parent_radius) {
-    radius = parent_radius;
-    ++radii_clamped_;
-  }
-  place.node = add({tip, radius, parent, radius, lateral});
+  if (std::max(from.radius, tip.radius) > parent_radius) ++radii_clamped_;
+  place.node = add({tip.position, std::min(tip.radius, parent_radius), parent, std::min(from.radius, parent_radius), lateral});
   place.lateral = false;
 }
 

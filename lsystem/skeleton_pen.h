@@ -9,6 +9,11 @@
 
 namespace cambium {
 
+struct AxisSample {
+  Vec3 position{0.0};
+  double radius = 0;
+};
+
 /// Adds internodes end to end. A piece of the skeleton begins where the pen was moved through the air; pieces that begin at one
 /// unmoved start share its node. Radii never rise towards a tip: they are lowered, and counted.
 class SkeletonPen {
@@ -23,7 +28,7 @@ class SkeletonPen {
   /// The turtle stands elsewhere than where it drew to.
   void lift(Place& place);
   /// An internode from where the turtle stands to `tip`.
-  void draw(Place& place, const Vec3& from, const Vec3& tip, double radius);
+  void draw(Place& place, const AxisSample& from, const AxisSample& tip);
   /// The node that what grows at `place` hangs on; -1: none yet.
   std::int32_t nearest_node(const Place& place) const { return place.node >= 0 ? place.node : starts_[place.start]; }
 

@@ -14,7 +14,8 @@ TurtleAction turtle_action(std::string_view symbol) {
       {"@Ts", kElasticity}, {"@T", kElasticity}, {"@Td", kTropism},
       {"!", kThinner},     {"#", kThicker},    {";", kNextColor},  {"'", kNextColor}, {",", kLastColor},
       {"[", kOpen},        {"]", kClose},      {"%", kCut},        {"?", kCall},
-      {"{", kOutlineOpen}, {"}", kOutlineClose}, {".", kCorner},  {"@O", kSphere},    {"@o", kDisc}, {"@c", kDisc},
+      {"{", kBraceOpen},   {"}", kBraceClose}, {".", kCorner},     {"@O", kSphere},    {"@o", kDisc}, {"@c", kDisc},
+      {"@Gs", kAxisStart}, {"@Gc", kAxisPoint}, {"@Ge", kAxisEnd}, {"@Gt", kAxisTangents},
       {"?P", kAskPosition}, {"?H", kAskHeading}, {"?U", kAskUp},   {"?L", kAskLeft}};
   if (symbol.starts_with('~')) return kSurface;
   const auto found = kActions.find(symbol);

@@ -14,7 +14,8 @@ enum class TurtleAction {
   kElasticity, kTropism,
   kThinner, kThicker, kNextColor, kLastColor,
   kOpen, kClose, kCut, kCall,
-  kOutlineOpen, kOutlineClose, kCorner, kSurface, kSphere, kDisc,
+  kBraceOpen, kBraceClose, kCorner, kSurface, kSphere, kDisc,
+  kAxisStart, kAxisPoint, kAxisEnd, kAxisTangents,
   kAskPosition, kAskHeading, kAskUp, kAskLeft
 };
 

@@ -65,12 +65,12 @@ void TurtleWalk::obey(TurtleAction action) {
     case TurtleAction::kSkip: return skip();
     case TurtleAction::kDraw:
     case TurtleAction::kDrawBetween:
-      outlines_.empty() ? draw() : move(length());
-      if (action == TurtleAction::kDraw) record_corner();
+      draw();
+      if (action == TurtleAction::kDraw) corner_of_step();
       return;
     case TurtleAction::kMove:
       move(length());
-      return record_corner();
+      return corner_of_step();
     case TurtleAction::kMoveBetween: return move(length());
     case TurtleAction::kPlace:
       if (count() != 3) return skip();
@@ -100,12 +100,20 @@ void TurtleWalk::obey(TurtleAction action) {
     case TurtleAction::kClose: return close_bracket();
     case TurtleAction::kCut: return cut();
     case TurtleAction::kCall: return call();
-    case TurtleAction::kOutlineOpen: return open_outline();
-    case TurtleAction::kOutlineClose: return close_outline();
-    case TurtleAction::kCorner: return record_corner();
+    case TurtleAction::kBraceOpen: return open_brace();
+    case TurtleAction::kBraceClose: return close_brace();
+    case TurtleAction::kCorner: return corner();
     case TurtleAction::kSurface: return surface();
     case TurtleAction::kSphere: return note(foliage_.add_sphere(site(), diameter()));
     case TurtleAction::kDisc: return note(foliage_.add_disc(site(), diameter()));
+    case TurtleAction::kAxisStart:
+      open_cylinder(GeneralizedCylinder(), false);
+      return pass_control_point();
+    case TurtleAction::kAxisPoint: return pass_control_point();
+    case TurtleAction::kAxisEnd:
+      pass_control_point();
+      return close_cylinder();
+    case TurtleAction::kAxisTangents: return set_tangents();
     case TurtleAction::kAskPosition: return answer(state_.position);
     case TurtleAction::kAskHeading: return answer(state_.frame.heading);
     case TurtleAction::kAskUp: return answer(state_.frame.up);
@@ -141,19 +149,28 @@ void TurtleWalk::place(const Vec3& position) {
   pen_.lift(state_.pen);
 }
 
+void TurtleWalk::line(SkeletonPen::Place& pen, const AxisSample& from, const AxisSample& tip, double length) {
+  check_position(tip.position);
+  if (pen_.full()) fail("more than 2147483647 nodes", "fewer derivation steps");
+  pen_.draw(pen, from, tip);
+  out_.total_length += length;
+}
+
 void TurtleWalk::draw() {
   const double length = this->length();
+  if (!outlines_.empty()) return move(length);
   if (length == 0) {
     ++out_.skipped["F(0)"];
     return;
   }
   if (length < 0) fail("a length of " + number_text(length), "a length of 0 or more");
-  const Vec3 tip = state_.position + length * state_.frame.heading;
-  check_position(tip);
-  if (pen_.full()) fail("more than 2147483647 nodes", "fewer derivation steps");
-  pen_.draw(state_.pen, state_.position, tip, 0.5 * state_.width * options_.width_unit);
-  state_.position = tip;
-  out_.total_length += length;
+  if (in_cylinder()) {  // its wood is the cylinder's
+    move(length);
+  } else {
+    const Vec3 tip = state_.position + length * state_.frame.heading;
+    line(state_.pen, {state_.position, radius()}, {tip, radius()}, length);
+    state_.position = tip;
+  }
   state_.frame.bend(state_.tropism, state_.elasticity);
 }
 
@@ -188,17 +205,39 @@ void TurtleWalk::note(FoliageCollector::Outcome outcome) {
   if (outcome == FoliageCollector::Outcome::kCancelled) cancelled_ = true;
 }
 
+// `{` and `{(0)` enclose an outline; `{(1)` to `{(4)` a generalized cylinder: Hermite open, closed, B-spline open, closed.
+void TurtleWalk::open_brace() {
+  const double kind = parameter_or(0);
+  if (kind == 0) return outlines_.push_back({site(), {}});
+  if (!(kind >= 1 && kind < 5)) return skip();
+  const int number = static_cast<int>(kind) - 1;
+  using Curve = GeneralizedCylinder::Curve;
+  open_cylinder(GeneralizedCylinder(number < 2 ? Curve::kHermite : Curve::kBSpline, number % 2 == 1), true);
+}
+
+// A `}` without parameter closes whatever was opened.
+void TurtleWalk::close_brace() {
+  if (!outlines_.empty()) return close_outline();
+  in_cylinder() ? close_cylinder() : skip();
+}
+
 // As in cpfg a polygon has the colour in which it is closed.
 void TurtleWalk::close_outline() {
-  if (outlines_.empty()) return skip();
   Outline& outline = outlines_.back();
   outline.site.color = state_.color;
   note(foliage_.add_outline(outline.site, outline.corners, run_));
   outlines_.pop_back();
 }
 
-void TurtleWalk::record_corner() {
-  if (outlines_.empty()) return;
+void TurtleWalk::corner_of_step() {
+  if (!outlines_.empty() || (in_cylinder() && cylinder().steps_are_points)) corner();
+}
+
+void TurtleWalk::corner() {
+  if (outlines_.empty()) {
+    if (in_cylinder()) pass_control_point();
+    return;
+  }
   auto& [site, corners] = outlines_.back();
   const Vec3 from_site = state_.position - site.position;
   corners.push_back({glm::dot(from_site, site.left), glm::dot(from_site, site.heading), glm::dot(from_site, site.up)});
@@ -218,8 +257,58 @@ void TurtleWalk::surface() {
 
 double TurtleWalk::diameter() const { return count() > 0 ? parameter(0) * scale_ : state_.width * options_.width_unit; }
 
+// What is drawn in brackets inside of @Gs and @Ge is a branch like others, until it has a control point of its own.
+bool TurtleWalk::in_cylinder() const {
+  return state_.cylinder >= 0 && (cylinder().steps_are_points || cylinder().depth == brackets_.size());
+}
+
+void TurtleWalk::open_cylinder(GeneralizedCylinder axis, bool steps_are_points) {
+  state_.cylinder = static_cast<std::int32_t>(cylinders_.size());
+  cylinders_.push_back({std::move(axis), state_.pen, brackets_.size(), steps_are_points});
+  if (!cylinders_.back().axis.passes_its_points()) pen_.lift(cylinders_.back().pen);
+}
+
+/// The cylinder that the turtle is in. In brackets it is a copy, a branch of the one around them.
+TurtleWalk::Cylinder& TurtleWalk::own_cylinder() {
+  if (state_.cylinder < 0) open_cylinder(GeneralizedCylinder(), false);
+  if (cylinder().depth != brackets_.size()) {
+    Cylinder branch = cylinder();
+    branch.pen.lateral = true;
+    branch.depth = brackets_.size();
+    state_.cylinder = static_cast<std::int32_t>(cylinders_.size());
+    cylinders_.push_back(std::move(branch));
+  }
+  return cylinders_[static_cast<std::size_t>(state_.cylinder)];
+}
+
+void TurtleWalk::draw_stretch(Cylinder& cylinder, const AxisStretch& stretch) {
+  for (std::size_t i = 1; i < stretch.size(); ++i)
+    line(cylinder.pen, stretch[i - 1], stretch[i], glm::distance(stretch[i - 1].position, stretch[i].position));
+}
+
+void TurtleWalk::pass_control_point() {
+  Cylinder& cylinder = own_cylinder();
+  const ControlPoint point{state_.position, state_.frame.heading, radius(), state_.tangent_in, state_.tangent_out};
+  draw_stretch(cylinder, cylinder.axis.pass(point));
+  state_.pen = cylinder.pen;  // branches grow from here
+}
+
+void TurtleWalk::close_cylinder() {
+  Cylinder& cylinder = own_cylinder();
+  for (const AxisStretch& stretch : cylinder.axis.close()) draw_stretch(cylinder, stretch);
+  state_.pen = cylinder.pen;
+  cylinders_.erase(cylinders_.begin() + state_.cylinder, cylinders_.end());
+  state_.cylinder = -1;
+}
+
+void TurtleWalk::set_tangents() {
+  if (count() == 0) return skip();
+  state_.tangent_in = parameter(0);
+  state_.tangent_out = parameter(count() > 1 ? 1 : 0);
+}
+
 void TurtleWalk::open_bracket() {
-  brackets_.push_back({state_, outlines_.size()});
+  brackets_.push_back({state_, outlines_.size(), cylinders_.size()});
   state_.pen.lateral = true;
 }
 
@@ -227,6 +316,7 @@ void TurtleWalk::close_bracket() {
   if (brackets_.empty()) fail("a ']'", "a '[' before it");
   state_ = brackets_.back().state;
   drop_outlines(brackets_.back().outlines);
+  cylinders_.erase(cylinders_.begin() + static_cast<std::ptrdiff_t>(brackets_.back().cylinders), cylinders_.end());
   brackets_.pop_back();
 }
 

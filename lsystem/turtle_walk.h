@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lsystem/foliage_collector.h"
+#include "lsystem/generalized_cylinder.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/skeleton_pen.h"
 #include "lsystem/turtle.h"
@@ -37,16 +38,25 @@ class TurtleWalk {
     Vec3 tropism{0.0};
     SkeletonPen::Place pen;
     std::uint32_t color = 0;
+    double tangent_in = 1.2, tangent_out = 1.2;  // of generalized cylinders
+    std::int32_t cylinder = -1;                  // of cylinders_, in which the turtle is; -1: none
     int turns = 0;  // since the frame was last repaired
   };
   struct Bracket {
     State state;
-    std::size_t outlines;  // that were open
+    std::size_t outlines, cylinders;  // that were open
   };
   /// Between { and }: corners in the coordinates of the turtle at the {.
   struct Outline {
     FoliageCollector::Site site;
     std::vector<Vec3> corners;
+  };
+
+  struct Cylinder {
+    GeneralizedCylinder axis;
+    SkeletonPen::Place pen;
+    std::size_t depth;      // in brackets
+    bool steps_are_points;  // F and f end in control points
   };
 
   std::size_t count() const { return string_.first[index_ + 1] - string_.first[index_]; }
@@ -65,16 +75,28 @@ class TurtleWalk {
   void place(const Vec3& position);
   void move(double length) { place(state_.position + length * state_.frame.heading); }
   void draw();
+  void line(SkeletonPen::Place& pen, const AxisSample& from, const AxisSample& tip, double length);
+  double radius() const { return 0.5 * state_.width * options_.width_unit; }
   void set_width(double width);
   void change_color(std::uint32_t steps_up);
   FoliageCollector::Site site() const;
   void note(FoliageCollector::Outcome outcome);
-  void open_outline() { outlines_.push_back({site(), {}}); }
+  void open_brace();
+  void close_brace();
   void close_outline();
-  void record_corner();
+  void corner();
+  void corner_of_step();
   void drop_outlines(std::size_t kept);
   void surface();
   double diameter() const;
+  bool in_cylinder() const;
+  const Cylinder& cylinder() const { return cylinders_[static_cast<std::size_t>(state_.cylinder)]; }
+  void open_cylinder(GeneralizedCylinder axis, bool steps_are_points);
+  Cylinder& own_cylinder();
+  void draw_stretch(Cylinder& cylinder, const AxisStretch& stretch);
+  void pass_control_point();
+  void close_cylinder();
+  void set_tangents();
   void open_bracket();
   void close_bracket();
   void cut();
@@ -96,6 +118,7 @@ class TurtleWalk {
   SkeletonPen pen_;
   FoliageCollector foliage_;
   std::vector<Outline> outlines_;      // that are open; brackets do not close them
+  std::vector<Cylinder> cylinders_;    // that are open, one for each bracket in which they went on
   double scale_ = 1;                   // of lengths, by the sub-L-systems around
   std::vector<double> callers_;        // their callers' scales
   std::vector<Bracket> brackets_;

@@ -112,8 +112,8 @@ TEST(Interpret, APercentSignCutsTheBranch) {
 }
 
 TEST(Interpret, SymbolsWithoutMeaningAreSkippedAndCounted) {
-  const Turtled result = turtled("F@Z(2)Y(1)Y@GsXF(0)@L?P(0,0,0)F");
-  const std::map<std::string, std::size_t> expected = {{"@Z", 1}, {"Y", 2}, {"@Gs", 1}, {"X", 1},
+  const Turtled result = turtled("F@Z(2)Y(1)Y@GrXF(0)@L?P(0,0,0)F");
+  const std::map<std::string, std::size_t> expected = {{"@Z", 1}, {"Y", 2}, {"@Gr", 1}, {"X", 1},
                                                        {"F(0)", 1}, {"@L", 1}, {"?P", 1}};
   EXPECT_EQ(result.skipped, expected);
   EXPECT_EQ(result.skeleton.nodes.size(), 3u);
