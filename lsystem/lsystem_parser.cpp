@@ -27,7 +27,7 @@ class Parser {
   Parser(const SourceText& source, const std::filesystem::path& file) : source_(source), cursor_(source) {
     program_->tables.files = source.files;
     // Reading them costs, and a model without functions must not fail on a curve that nothing asks for.
-    if (source.text.find("func") != std::string::npos) program_->tables.curves = curves_beside(file);
+    if (!source.marks_names && source.text.find("func") != std::string::npos) program_->tables.curves = curves_beside(file);
     SymbolTable& symbols = program_->symbols;
     program_->open = symbols.number("[");
     program_->close = symbols.number("]");
@@ -224,6 +224,10 @@ class Parser {
     list.seen = true;
     list.considers = consider;
     for (cursor_.skip_space(); !cursor_.at_line_end(); cursor_.skip_space()) {
+      if (cursor_.at_marked_name()) {
+        list.names.push_back(cursor_.marked_name());
+        continue;
+      }
       const char c = cursor_.peek();
       if (static_cast<unsigned char>(c) <= ' ' || static_cast<unsigned char>(c) >= 0x7f) cursor_.fail("a symbol");
       list.symbols.push_back(c);
@@ -234,13 +238,17 @@ class Parser {
   struct ContextList {
     bool seen = false;
     bool considers = false;
-    std::string symbols;
+    std::string symbols;             // that names begin with
+    std::vector<std::string> names;  // whole
+    bool has(const std::string& name) const {
+      return symbols.find(name[0]) != std::string::npos || std::find(names.begin(), names.end(), name) != names.end();
+    }
   };
 
   std::vector<bool> ignored(const ContextList& list) const {
     std::vector<bool> out;
     for (const std::string& name : program_->symbols.names())
-      out.push_back(list.seen && (list.symbols.find(name[0]) != std::string::npos) != list.considers);
+      out.push_back(list.seen && list.has(name) != list.considers);
     return out;
   }
 

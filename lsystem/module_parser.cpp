@@ -14,6 +14,7 @@ constexpr std::size_t kMaxParameters = 1000;
 constexpr std::string_view kSymbolMarks = "+-&^\\/|$[]{}.!#;,'%_=?";
 
 bool symbol_at(const Cursor& cursor) {
+  if (cursor.at_marked_name()) return true;
   const char c = cursor.peek();
   if (c == '\0' || cursor.looking_at("-->")) return false;
   return in_word(c) || c == '@' || c == '~' || kSymbolMarks.find(c) != std::string_view::npos;
@@ -45,6 +46,7 @@ bool is_keyword(const std::string& word) {
 
 std::optional<std::string> ModuleParser::symbol() {
   if (!symbol_at(cursor_)) return std::nullopt;
+  if (cursor_.at_marked_name()) return cursor_.marked_name();
   const std::size_t at = cursor_.position();
   std::string name(1, cursor_.peek());
   cursor_.advance();

@@ -1,5 +1,6 @@
 #include "lsystem/source_text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -42,8 +43,17 @@ std::string Cursor::word() {
   return source_.text.substr(begin, position_ - begin);
 }
 
+std::string Cursor::marked_name() {
+  const std::size_t end = std::min(source_.text.find(SourceText::kNameMark, position_ + 1), source_.text.size());
+  std::string name = source_.text.substr(position_ + 1, end - position_ - 1);
+  position_ = std::min(end + 1, source_.text.size());
+  return name;
+}
+
 std::string Cursor::describe(std::size_t position) const {
   const std::string& text = source_.text;
+  if (source_.marks_names && position < text.size() && text[position] == SourceText::kNameMark)
+    return "'" + text.substr(position + 1, text.find(SourceText::kNameMark, position + 1) - position - 1) + "'";
   if (position >= text.size()) return "the end of the file";
   const char c = text[position];
   if (c == '\n') return "the end of the line";

@@ -24,10 +24,15 @@ inline SourceLocation located(const std::vector<std::string>& files, const Place
 
 /// Characters and their places, index by index; `end` is the place behind the last one.
 struct SourceText {
+  /// Stands before and behind a symbol's name in what was translated from another dialect (see dialect.h), whose symbols may be
+  /// of several characters, or of such as mean something else in cpfg's language.
+  static constexpr char kNameMark = '\x1e';
+
   std::string text;
   std::vector<Place> places;
   Place end;
   std::vector<std::string> files;
+  bool marks_names = false;
 
   void append(char c, const Place& place) {
     text.push_back(c);
@@ -58,6 +63,8 @@ class Cursor {
   void skip_blank_lines();                     ///< all white space
   bool at_line_end() const { return at_end() || peek() == '\n'; }
   std::string word();                          ///< identifier at the head, or empty
+  bool at_marked_name() const { return source_.marks_names && peek() == SourceText::kNameMark; }
+  std::string marked_name();                   ///< at its first mark
   Place place() const { return source_.place(position_); }
   Place place_of(std::size_t position) const { return source_.place(position); }
   const SourceText& source() const { return source_; }
