@@ -17,11 +17,13 @@ constexpr std::size_t kListedBranches = 12;  // of `info` on a terminal; --json 
 
 void add_common(CLI::App& app, CommandLine& line) {
   app.add_option("INPUT", line.input,
-                 "a recipe (.tree.toml), L-system (.l), skeleton (.skel.json .swc .csv) or BlobTree (.blob.json)")
+                 "a recipe (.tree.toml), L-system (.l .lpy), skeleton (.skel.json .swc .csv) or BlobTree (.blob.json)")
       ->required();
   app.add_option("--threads", line.threads, "threads to use; 0: all")->check(CLI::Range(0, 4096));
   app.add_option("--seed", line.seed, "overrides the input's")->check(CLI::NonNegativeNumber);
   app.add_option("--lsystem", line.label, "which L-system of the file, by its label; else the first");
+  app.add_option("--dialect", line.dialect, "that an L-system is written in: cpfg, lpy or houdini; by default .lpy is lpy, else cpfg")
+      ->check(CLI::IsMember({"cpfg", "lpy", "houdini"}));
   app.add_option("--max-modules", line.max_modules, "an L-system's string may have so many; 100000000 by default")
       ->check(CLI::Range(1.0, 4e9));
   app.add_flag("--quiet", line.quiet, "print errors only");

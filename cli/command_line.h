@@ -19,6 +19,7 @@ struct CommandLine {
   int threads = 0;
   std::optional<std::uint64_t> seed;
   std::optional<std::string> label;          ///< of --lsystem
+  std::string dialect;                       ///< of an L-system
   std::optional<std::size_t> max_modules;
   std::optional<int> step;                   ///< derive
   bool explain = false;                      ///< derive

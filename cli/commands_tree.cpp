@@ -52,10 +52,10 @@ std::optional<Derived> derive_text(Job& job, const LSystem& system) {
 
 Outcome run_derive(Job& job) {
   if (job.source_kind != InputKind::kLSystem)
-    throw InputError({job.source.string()}, "no L-system", "an L-system (.l), or a recipe with lsystem = \"...\"");
+    throw InputError({job.source.string()}, "no L-system", "an L-system (.l .lpy), or a recipe with lsystem = \"...\"");
   std::optional<OutputFile> output;
   if (!job.line.output.empty()) output.emplace(job.line.output);
-  const LSystem system = LSystem::load(job.source, job.recipe.skeleton.label);
+  const LSystem system = load_lsystem(job);
   const auto derived = derive_text(job, system);
   if (!derived) return Outcome::kInterrupted;
   if (output || !job.line.json) {

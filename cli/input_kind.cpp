@@ -5,9 +5,9 @@
 namespace cambium {
 
 InputKind input_kind(const std::filesystem::path& path) {
-  const std::string extension = require_extension(path, {".tree.toml", ".l", ".skel.json", ".swc", ".csv", ".blob.json"});
+  const std::string extension = require_extension(path, {".tree.toml", ".l", ".lpy", ".skel.json", ".swc", ".csv", ".blob.json"});
   if (extension == ".tree.toml") return InputKind::kRecipe;
-  if (extension == ".l") return InputKind::kLSystem;
+  if (extension == ".l" || extension == ".lpy") return InputKind::kLSystem;
   if (extension == ".blob.json") return InputKind::kBlobTree;
   return InputKind::kSkeleton;
 }

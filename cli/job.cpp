@@ -73,6 +73,7 @@ Job::Job(const CommandLine& command_line, const std::atomic<bool>& cancel)
   source_kind = kind;
   find_source(*this);
   if (line.label) recipe.skeleton.label = line.label;
+  if (!line.dialect.empty()) recipe.skeleton.dialect = dialect_named(line.dialect);
   if (line.seed) {
     recipe.skeleton.seed = line.seed;
     recipe.surface.seed = *line.seed;
@@ -84,6 +85,10 @@ Job::Job(const CommandLine& command_line, const std::atomic<bool>& cancel)
   figures.set("command", line.command_name);
   figures.set("input", line.input);
   if (!line.output.empty()) figures.set("output", line.output);
+}
+
+LSystem load_lsystem(const Job& job) {
+  return LSystem::load(job.source, job.recipe.skeleton.label, job.recipe.skeleton.dialect);
 }
 
 DeriveOptions derive_options(const Job& job) {
@@ -104,12 +109,12 @@ std::optional<ModuleString> derive_string(Job& job, const LSystem& system) {
 std::optional<Skeleton> grow_skeleton(Job& job) {
   if (job.source_kind == InputKind::kBlobTree)
     throw InputError({job.source.string()}, "a BlobTree",
-                     "an input with a skeleton: .tree.toml, .l, .skel.json, .swc or .csv");
+                     "an input with a skeleton: .tree.toml, .l, .lpy, .skel.json, .swc or .csv");
   if (job.source_kind == InputKind::kSkeleton) {
     const StageTimer timer(job.figures, "read");
     return read_skeleton(job.source);
   }
-  const LSystem system = LSystem::load(job.source, job.recipe.skeleton.label);
+  const LSystem system = load_lsystem(job);
   const auto string = derive_string(job, system);
   if (!string || job.run.cancelled()) return std::nullopt;
   return walk_turtle(job, *string, system);

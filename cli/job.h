@@ -38,6 +38,8 @@ class Job {
 // Each stage times itself in job.figures and returns nullopt when interrupted. Errors: InputError, also where the source
 // cannot give what the stage makes.
 
+/// The L-system that the source is.
+LSystem load_lsystem(const Job& job);
 /// What the command line and the recipe say of a derivation; the model's printf goes to stderr unless --quiet.
 DeriveOptions derive_options(const Job& job);
 std::optional<ModuleString> derive_string(Job& job, const LSystem& system);

@@ -26,6 +26,11 @@ const KeyRule<SkeletonRecipe> kSkeletonKeys[] = {
     {"graph", [](const RecipeValue& v,
                  SkeletonRecipe&) { v.refuse("lsystem or file: growing on a graph is not available in this version"); }},
     {"label", [](const RecipeValue& v, SkeletonRecipe& s) { s.label = v.text(); }},
+    {"dialect",
+     [](const RecipeValue& v, SkeletonRecipe& s) {
+       constexpr Dialect kDialects[] = {Dialect::kCpfg, Dialect::kLpy, Dialect::kHoudini};
+       s.dialect = kDialects[v.choice({"cpfg", "lpy", "houdini"})];
+     }},
     {"steps", [](const RecipeValue& v, SkeletonRecipe& s) { s.steps = static_cast<int>(v.integer(0, 1'000'000)); }},
     {"seed",
      [](const RecipeValue& v, SkeletonRecipe& s) { s.seed = static_cast<std::uint64_t>(v.integer(0, kLargestInteger)); }},

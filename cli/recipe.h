@@ -22,6 +22,7 @@ struct SkeletonRecipe {
   std::optional<std::filesystem::path> lsystem, file;  ///< relative to the working directory
   SourceLocation named_at;                             ///< where the recipe names it
   std::optional<std::string> label;                    ///< which L-system of the file; unset: the first
+  std::optional<Dialect> dialect;                      ///< of the L-system; unset: as its file's extension says
   std::optional<int> steps;                            ///< of derivation; unset: the L-system's own
   std::optional<std::uint64_t> seed;
   TurtleOptions turtle;

@@ -98,7 +98,6 @@ class HoudiniReader {
     } else if (name == "context ignore") {
       context_ignore(begin);
     } else if (name.size() == 10 && name.substr(0, 9) == "variable ") {
-      in_.seek(in_.position());
       set_variable(begin, name.back());
     } else {
       return false;
@@ -108,8 +107,7 @@ class HoudiniReader {
 
   double number() {
     in_.skip_space();
-    const double value = constant_of(expression([this] { return in_.at_line_end(); }), source_);
-    return value;
+    return constant_of(expression([this] { return in_.at_line_end(); }), source_);
   }
 
   // `var b 0.3`
@@ -196,8 +194,8 @@ class HoudiniReader {
       append(out, name, place);
       before = ',';
     } while (in_.accept(','));
-    in_.expect_close(open, "or ','");
     out.push_back({')', in_.place()});
+    in_.expect_close(open, "or ','");
   }
 
   /// Symbols with their parameters up to a colon or the end of the line; `*` of cpfg if there are none.
@@ -222,8 +220,8 @@ class HoudiniReader {
       append(out, expression([this] { return in_.peek() == ',' || in_.peek() == ')'; }));
       before = ',';
     } while (in_.accept(','));
-    in_.expect_close(open, "or ','");
     out.push_back({')', in_.place()});
+    in_.expect_close(open, "or ','");
   }
 
   void symbol(MarkedText& out) {
@@ -252,7 +250,7 @@ class HoudiniReader {
       if (c == ')' && open.empty()) in_.fail("an operator");
       if (c == ')') open.pop_back();
       if (std::string_view("\"`$@'{}[]").find(c) != std::string_view::npos) in_.fail("a number: HScript is out of reach");
-      const std::size_t length = comparison_at(in_) || is_digit(c) ? std::max<std::size_t>(number_length(), c && !is_digit(c) ? 2 : 1) : 1;
+      const std::size_t length = is_digit(c) ? number_length() : comparison_at(in_) ? 2 : 1;
       for (std::size_t i = 0; i < length; ++i, in_.advance()) out.push_back({in_.peek(), in_.place()});
     }
     if (!open.empty()) in_.fail_at(open.back(), "'(' without an end", "')' on the same line");

@@ -262,8 +262,8 @@ class LpyReader {
       append(out, argument());
       before = ',';
     } while (in_.accept(','));
-    in_.expect_close(open, "or ','");
     out.push_back({')', in_.place()});
+    in_.expect_close(open, "or ','");
     return out;
   }
 
@@ -355,8 +355,8 @@ class LpyReader {
       append(out, parameter, in_.place_of(here));
       before = ',';
     } while (in_.accept(','));
-    in_.expect_close(open, "or ','");
     out.push_back({')', in_.place()});
+    in_.expect_close(open, "or ','");
     return out;
   }
 

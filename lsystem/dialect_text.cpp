@@ -59,6 +59,8 @@ double constant_of(const MarkedText& expression, const SourceText& from) {
   Scope scope;
   Code code;
   ExpressionCompiler(cursor, scope, code).expression();
+  cursor.skip_space();
+  if (!cursor.at_end()) cursor.fail("the end of the line");
   CodeTables tables;
   tables.files = from.files;
   return constant_value(code, tables);

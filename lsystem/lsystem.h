@@ -3,6 +3,7 @@
 
 #include "blobtree/input_error.h"
 #include "blobtree/run_options.h"
+#include "lsystem/dialect.h"
 #include "skeletons/foliage.h"
 #include "skeletons/skeleton.h"
 
@@ -27,8 +28,10 @@ class LSystem {
   /// of a model that calls func(): see curve.h.
   /// Errors: InputError with line and column (in bytes, of the file before preprocessing).
   static LSystem parse(std::string_view text, const std::filesystem::path& file,
-                       const std::optional<std::string>& label = std::nullopt);
-  static LSystem load(const std::filesystem::path& file, const std::optional<std::string>& label = std::nullopt);
+                       const std::optional<std::string>& label = std::nullopt, Dialect dialect = Dialect::kCpfg);
+  /// `dialect` unset: the file's extension tells.
+  static LSystem load(const std::filesystem::path& file, const std::optional<std::string>& label = std::nullopt,
+                      std::optional<Dialect> dialect = std::nullopt);
   const LSystemProgram& program() const { return *program_; }
 
  private:

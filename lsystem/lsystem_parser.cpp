@@ -303,9 +303,15 @@ const System* LSystemProgram::numbered(double label) const {
   return nullptr;
 }
 
-LSystem LSystem::parse(std::string_view text, const std::filesystem::path& file, const std::optional<std::string>& label) {
-  const SourceText source = preprocess(text, file);
+LSystem LSystem::parse(std::string_view text, const std::filesystem::path& file, const std::optional<std::string>& label,
+                       Dialect dialect) {
+  HoudiniValues houdini;
+  const SourceText source = dialect == Dialect::kLpy       ? cpfg_from_lpy(text, file)
+                            : dialect == Dialect::kHoudini ? cpfg_from_houdini(text, file, houdini)
+                                                           : preprocess(text, file);
   auto program = Parser(source, file).read();
+  program->dialect = dialect;
+  program->houdini = houdini;
   if (label) {
     const auto named =
         std::find_if(program->systems.begin(), program->systems.end(), [&](const System& s) { return s.label == *label; });
@@ -318,8 +324,9 @@ LSystem LSystem::parse(std::string_view text, const std::filesystem::path& file,
   return system;
 }
 
-LSystem LSystem::load(const std::filesystem::path& file, const std::optional<std::string>& label) {
-  return parse(read_source(file, {file.string(), 0, 0}), file, label);
+LSystem LSystem::load(const std::filesystem::path& file, const std::optional<std::string>& label,
+                      std::optional<Dialect> dialect) {
+  return parse(read_source(file, {file.string(), 0, 0}), file, label, dialect.value_or(dialect_of(file)));
 }
 
 }  // namespace cambium

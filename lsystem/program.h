@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lsystem/bytecode.h"
+#include "lsystem/dialect.h"
 
 namespace cambium {
 
@@ -91,6 +92,8 @@ struct LSystemProgram {
   std::uint32_t block_locals = 0;              ///< most locals of any block
   std::vector<System> systems;
   std::size_t main_index = 0;
+  Dialect dialect = Dialect::kCpfg;            ///< whose turtle the symbols are for
+  HoudiniValues houdini;
 
   const System& main() const { return systems[main_index]; }
   /// The one whose label is this whole number; nullptr if there is none.

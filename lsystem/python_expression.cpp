@@ -59,9 +59,9 @@ class Translator {
  private:
   /// A piece of an expression: either text or an expression.
   struct Piece {
-    Piece(const char* text) : text(text) {}
-    Piece(std::string_view text) : text(text) {}
-    Piece(const MarkedText* expression) : expression(expression) {}
+    Piece(const char* words) : text(words) {}
+    Piece(std::string_view words) : text(words) {}
+    Piece(const MarkedText* inner) : expression(inner) {}
     std::string_view text;
     const MarkedText* expression = nullptr;
   };

@@ -82,6 +82,18 @@ TEST_F(Commands, DeriveRunsTheLSystemThatIsNamed) {
   EXPECT_NE(ran.err.find("no L-system 'third'"), std::string::npos) << ran.err;
 }
 
+TEST_F(Commands, ReadOtherDialectsByOptionRecipeOrExtension) {
+  folder_.write("koch.lpy", "Axiom: F\nderivation length: 1\nproduction:\nF --> F-F\nendlsystem\n");
+  folder_.write("koch.l", "Generations: 1\nPremise: F\nRule 1: F=F-F\n");
+  folder_.write("koch.tree.toml", "[skeleton]\nlsystem = \"koch.l\"\ndialect = \"houdini\"\n");
+  EXPECT_EQ(run_program({"derive", at("koch.lpy")}).out, "F-F\n");
+  EXPECT_EQ(run_program({"derive", at("koch.l"), "--dialect", "houdini"}).out, "F-F\n");
+  EXPECT_EQ(run_program({"derive", at("koch.tree.toml")}).out, "F-F\n");
+  EXPECT_EQ(run_program({"derive", at("koch.tree.toml"), "--set", "skeleton.dialect=lpy"}).status, 2);
+  EXPECT_EQ(run_program({"derive", at("koch.l")}).status, 2);
+  EXPECT_EQ(run_program({"derive", at("koch.l"), "--dialect", "maya"}).status, 2);
+}
+
 TEST_F(Commands, GrowWritesASkeletonThatReadsBack) {
   for (const char* input : {"tiny.l", "tiny.tree.toml", "tiny.skel.json", "tiny.swc", "tiny.csv"})
     for (const char* output : {"grown.skel.json", "grown.swc"}) {

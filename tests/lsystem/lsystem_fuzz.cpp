@@ -1,4 +1,4 @@
-// libFuzzer's entry: any bytes as an L-system, parsed, derived, explained and drawn. What it throws but an InputError is a finding.
+// libFuzzer's entry: any bytes as an L-system of any dialect, parsed, derived, explained and drawn. What it throws but an InputError is a finding.
 // Also part of the tests, which replay corpus/.
 #include "lsystem/lsystem.h"
 
@@ -36,10 +36,16 @@ class Deadline {
   std::atomic<bool> passed_{false};
 };
 
+/// A first line that is a comment in its dialect names it.
+Dialect dialect_in(std::string_view text) {
+  if (text.starts_with("#lpy\n")) return Dialect::kLpy;
+  return text.starts_with("#houdini\n") ? Dialect::kHoudini : Dialect::kCpfg;
+}
+
 void derive_and_draw(std::string_view text) {
   static Deadline& deadline = *new Deadline;   // outlives main, as its thread does
   // A folder that is not there: nothing is included, and no curves are found.
-  const LSystem system = LSystem::parse(text, "/nonexistent/fuzzed.l");
+  const LSystem system = LSystem::parse(text, "/nonexistent/fuzzed.l", std::nullopt, dialect_in(text));
   DeriveOptions options;
   options.steps = 4;
   options.max_modules = 3000;
