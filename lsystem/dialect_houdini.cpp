@@ -41,7 +41,7 @@ class HoudiniReader {
     append(out_, "lsystem: houdini\n", Place{1, 1, 0});
     for (in_.skip_blank_lines(); !in_.at_end(); in_.skip_blank_lines()) {
       if (in_.peek() == '#' || in_.looking_at("//"))
-        while (!in_.at_line_end()) in_.advance();
+        skip_line();
       else
         line();
     }
@@ -93,7 +93,7 @@ class HoudiniReader {
       values_.*value->value = number();
     } else if (name == "generations" || name == "random seed" || name == "seed") {
       append(out_, name == "generations" ? "derivation length: " : "seed: ", in_.place_of(begin));
-      append(out_, expression([this] { return in_.at_line_end(); }));
+      append(out_, value_expression());
       end_line();
     } else if (name == "context ignore") {
       context_ignore(begin);
@@ -107,7 +107,18 @@ class HoudiniReader {
 
   double number() {
     in_.skip_space();
-    return constant_of(expression([this] { return in_.at_line_end(); }), source_);
+    return constant_of(value_expression(), source_);
+  }
+
+  /// Up to a comment or the end of the line, where the head then is.
+  MarkedText value_expression() {
+    MarkedText out = expression([this] { return in_.at_line_end() || in_.peek() == '#'; });
+    skip_line();
+    return out;
+  }
+
+  void skip_line() {
+    while (!in_.at_line_end()) in_.advance();
   }
 
   // `var b 0.3`

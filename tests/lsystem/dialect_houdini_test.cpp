@@ -61,7 +61,7 @@ TEST(DialectHoudini, SymbolsOfTheLanguageOfCpfgAreSymbols) {
 }
 
 TEST(DialectHoudini, TheNodesValuesAreRead) {
-  const LSystem system = houdini("Generations: 2\nRandom Seed: 7\nStep Size: 2\nThickness = 0.5\nPremise: F\nF=FF\n");
+  const LSystem system = houdini("Generations: 2\nRandom Seed: 7\nStep Size: 2 # metres\nThickness = 0.5\nPremise: F\nF=FF\n");
   const auto string = derive(system, {}, {});
   EXPECT_EQ(string->seed, 7u);
   const Turtled turtled = interpret(*string, system, {}, {}).value();
