@@ -1,5 +1,6 @@
 // From a string of modules to a plant skeleton: its drawn form, then the turtle's walk.
 #include "lsystem/drawn_form.h"
+#include "lsystem/growth.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/program.h"
 #include "lsystem/turtle_walk.h"
@@ -7,10 +8,15 @@
 namespace cambium {
 namespace {
 
+std::string file_of(const LSystem& system) {
+  const std::vector<std::string>& files = system.program().tables.files;
+  return files.empty() ? std::string() : files[0];
+}
+
 std::optional<Turtled> draw(const ModuleString& string, const LSystem& system, const TurtleOptions& options,
                             const RunOptions& run, TurtleAnswers* answers) {
   const LSystemProgram& program = system.program();
-  const std::string file = program.tables.files.empty() ? std::string() : program.tables.files[0];
+  const std::string file = file_of(system);
   if (is_its_drawn_form(program)) return TurtleWalk(string, file, options, run, answers).walk();
   const auto drawn = drawn_form(string, program, options, run);
   if (!drawn) return std::nullopt;
@@ -36,6 +42,14 @@ bool answer_queries(ModuleString& string, const LSystem& system, const TurtleOpt
       string.parameters[string.first[i] + static_cast<std::size_t>(axis)] = found->second[axis];
   }
   return true;
+}
+
+std::optional<Turtled> interpret(const GrownString& grown, const LSystem& system, const TurtleOptions& options,
+                                 const RunOptions& run) {
+  const std::string file = file_of(system);
+  TurtleWalk walk(grown.string, file, options, run, nullptr);
+  walk.grow(grown.parts);
+  return walk.walk();
 }
 
 }  // namespace cambium

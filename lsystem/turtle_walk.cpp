@@ -82,7 +82,8 @@ void TurtleWalk::obey(TurtleAction action) {
     case TurtleAction::kPitchUp: return turn(&TurtleFrame::pitch, -angle());
     case TurtleAction::kRollRight: return turn(&TurtleFrame::roll, angle());
     case TurtleAction::kRollLeft: return turn(&TurtleFrame::roll, -angle());
-    case TurtleAction::kTurnBack: return state_.frame.turn_back();
+    case TurtleAction::kTurnBack:
+      return grown_turn() == 1 ? state_.frame.turn_back() : state_.frame.yaw(std::numbers::pi * grown_turn());
     case TurtleAction::kLevel: return level_or_return();
     case TurtleAction::kElasticity:
       if (count() == 0) return skip();
@@ -122,7 +123,7 @@ void TurtleWalk::obey(TurtleAction action) {
 }
 
 void TurtleWalk::turn(void (TurtleFrame::*rotation)(double), double radians) {
-  (state_.frame.*rotation)(radians);
+  (state_.frame.*rotation)(radians * grown_turn());
   if (++state_.turns < kTurnsBetweenRepairs) return;
   state_.turns = 0;
   state_.frame.restore_orthonormality();
@@ -171,7 +172,7 @@ void TurtleWalk::draw() {
     line(state_.pen, {state_.position, radius()}, {tip, radius()}, length);
     state_.position = tip;
   }
-  state_.frame.bend(state_.tropism, state_.elasticity);
+  state_.frame.bend(state_.tropism, state_.elasticity * grown_turn());
 }
 
 void TurtleWalk::set_width(double width) {
@@ -252,10 +253,12 @@ void TurtleWalk::drop_outlines(std::size_t kept) {
 void TurtleWalk::surface() {
   const std::string& symbol = string_.names[string_.symbol[index_]];
   const Vec3 stretch = count() < 3 ? Vec3(parameter_or(1)) : Vec3(parameter(0), parameter(1), parameter(2));
-  note(foliage_.add_surface(site(), symbol.substr(1), scale_ * stretch));
+  note(foliage_.add_surface(site(), symbol.substr(1), scale_ * grown_size() * stretch));
 }
 
-double TurtleWalk::diameter() const { return count() > 0 ? parameter(0) * scale_ : state_.width * options_.width_unit; }
+double TurtleWalk::diameter() const {
+  return grown_size() * (count() > 0 ? parameter(0) * scale_ : state_.width * options_.width_unit);
+}
 
 // What is drawn in brackets inside of @Gs and @Ge is a branch like others, until it has a control point of its own.
 bool TurtleWalk::in_cylinder() const {

@@ -9,6 +9,7 @@
 
 #include "lsystem/foliage_collector.h"
 #include "lsystem/generalized_cylinder.h"
+#include "lsystem/growth_parts.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/skeleton_pen.h"
 #include "lsystem/turtle.h"
@@ -24,6 +25,9 @@ class TurtleWalk {
   /// `file` is where errors are said to be; `answers` null: nobody asks. All references outlive the walk.
   TurtleWalk(const ModuleString& string, const std::string& file, const TurtleOptions& options, const RunOptions& run,
              TurtleAnswers* answers);
+
+  /// New modules are drawn as far as they have grown. `parts` outlives the walk.
+  void grow(const GrowthParts& parts) { parts_ = &parts; }
 
   /// Once. nullopt if cancelled. Errors: see interpret().
   std::optional<Turtled> walk();
@@ -62,7 +66,9 @@ class TurtleWalk {
   std::size_t count() const { return string_.first[index_ + 1] - string_.first[index_]; }
   double parameter(std::size_t i) const { return string_.parameters[string_.first[index_] + i]; }
   double parameter_or(double fallback) const { return count() > 0 ? parameter(0) : fallback; }
-  double length() const { return parameter_or(options_.step) * scale_; }
+  double length() const { return parameter_or(options_.step) * scale_ * grown_size(); }
+  double grown_size() const { return parts_ ? parts_->size(index_) : 1; }
+  double grown_turn() const { return parts_ ? parts_->turn(index_) : 1; }
   double angle() const;
   void skip() { ++skipped_[string_.symbol[index_]]; }
   bool cancelled();
@@ -76,7 +82,7 @@ class TurtleWalk {
   void move(double length) { place(state_.position + length * state_.frame.heading); }
   void draw();
   void line(SkeletonPen::Place& pen, const AxisSample& from, const AxisSample& tip, double length);
-  double radius() const { return 0.5 * state_.width * options_.width_unit; }
+  double radius() const { return 0.5 * state_.width * options_.width_unit * (parts_ ? parts_->width(index_) : 1); }
   void set_width(double width);
   void change_color(std::uint32_t steps_up);
   FoliageCollector::Site site() const;
@@ -109,6 +115,7 @@ class TurtleWalk {
   const TurtleOptions& options_;
   const RunOptions& run_;
   TurtleAnswers* const answers_;
+  const GrowthParts* parts_ = nullptr; // null: all is full-grown
   std::vector<TurtleAction> actions_;  // by symbol
   std::vector<std::size_t> skipped_;   // by symbol
   std::size_t index_ = 0;              // of the module being obeyed
