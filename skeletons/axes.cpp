@@ -84,7 +84,7 @@ void append_internode(std::vector<AxisNode>& path, const SkeletonNode& node, boo
 
 }  // namespace
 
-AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t* merged) {
+AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t* merged, std::span<const std::int32_t> ridden) {
   struct Start { std::int32_t parent; AxisPlace attach; std::uint32_t from, first; };
   std::vector<SkeletonNode> repaired;  // a skeleton is large: copied only where there is something to repair
   if (!all_finite(skeleton.nodes)) repaired = with_finite_numbers(skeleton.nodes);
@@ -101,6 +101,7 @@ AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t
 
   AxisTree tree;
   tree.axes.reserve(tips);
+  std::vector<AxisRider> rider_of(ridden.empty() ? 0 : nodes.size());
   std::vector<AxisNode> path;
   for (std::size_t s = 0; s < starts.size(); ++s) {
     const Start start = starts[s];
@@ -119,6 +120,7 @@ AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t
       const std::int64_t next = continuation(nodes, lists, at, direction);
       const auto here = static_cast<std::uint32_t>(path.size() - 1);
       const AxisPlace place = here == 0 ? AxisPlace{0, 0} : AxisPlace{here - 1, 1};
+      if (!rider_of.empty()) rider_of[at] = {static_cast<std::int32_t>(s), place};
       for (std::uint32_t k = lists.first[at]; k < lists.first[at + 1]; ++k)
         if (lists.child[k] != next) starts.push_back({static_cast<std::int32_t>(s), place, at, lists.child[k]});
       if (next < 0) break;
@@ -130,6 +132,10 @@ AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps, std::size_t
     tree.axes.push_back(std::move(axis));
   }
   tree.branch_count = static_cast<std::uint32_t>(tree.axes.size());
+  for (const std::int32_t node : ridden) {
+    AxisRider& rider = tree.riders.emplace_back(node < 0 ? AxisRider{} : rider_of[node]);
+    if (rider.axis >= 0) rider.tangent = tangent_at(tree.axes[rider.axis], rider.place);
+  }
   if (merged) *merged += merged_here;
   return tree;
 }
@@ -147,16 +153,8 @@ void remove_axes(AxisTree& tree, std::vector<bool> marked) {
     ++kept;
   }
   tree.axes.resize(kept);
-}
-
-Laterals::Laterals(const AxisTree& tree) : first_(tree.axes.size() + 1, 0) {
-  for (const Axis& axis : tree.axes)
-    if (axis.parent >= 0) ++first_[axis.parent + 1];
-  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  borne_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < tree.axes.size(); ++i)
-    if (tree.axes[i].parent >= 0) borne_[next[tree.axes[i].parent]++] = static_cast<std::uint32_t>(i);
+  for (AxisRider& rider : tree.riders)
+    if (rider.axis >= 0) rider.axis = place[rider.axis];
 }
 
 Vec3 position_at(const Axis& axis, const AxisPlace& place) {

@@ -44,19 +44,38 @@ struct Axis {
   std::optional<AxisCut> cut;
 };
 
+/// What holds on to an axis and goes where the wood goes: its place is kept up as axes are reshaped, joined and cut.
+struct AxisRider {
+  std::int32_t axis = -1;                  ///< -1: none, or its wood is gone
+  AxisPlace place;
+  Vec3 offset{0.0};                        ///< from the place to what is held: not 0 where an axis went up in its parent's solid
+  Vec3 tangent{0, 0, 1};                   ///< of the axis there when the rider took hold; unit
+};
+
 /// Axes in an order in which parents stand first. Breadth first as made by decompose_axes, so ids are low on thick wood.
 struct AxisTree {
   std::vector<Axis> axes;
   std::uint32_t branch_count = 0;          ///< ids given out; some of them may have been removed since
+  std::vector<AxisRider> riders;
 };
 
 /// Takes away the marked axes and all that they bear; ids stay.
 void remove_axes(AxisTree& tree, std::vector<bool> marked);
 
-/// For every axis the indices of the axes that it bears, ascending: laterals[i] is a span. Cost: linear, in two arrays.
-class Laterals {
+/// For every axis the indices of the items that it bears, ascending: borne[i] is a span. Cost: linear, in two arrays.
+class BorneBy {
  public:
-  explicit Laterals(const AxisTree& tree);
+  /// `axis`: the member that says which axis bears an item; negative: none.
+  template <class Item>
+  BorneBy(std::size_t axes, const std::vector<Item>& items, std::int32_t Item::* axis) : first_(axes + 1, 0) {
+    for (const Item& item : items)
+      if (item.*axis >= 0) ++first_[item.*axis + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    borne_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (items[i].*axis >= 0) borne_[next[items[i].*axis]++] = static_cast<std::uint32_t>(i);
+  }
   std::span<const std::uint32_t> operator[](std::size_t axis) const {
     return {borne_.data() + first_[axis], first_[axis + 1] - first_[axis]};
   }
@@ -65,10 +84,16 @@ class Laterals {
   std::vector<std::uint32_t> first_, borne_;
 };
 
+/// The axes that each axis bears.
+struct Laterals : BorneBy {
+  explicit Laterals(const AxisTree& tree) : BorneBy(tree.axes.size(), tree.axes, &Axis::parent) {}
+};
+
 /// The child that continues an axis is the unbracketed one (`lateral` false), else the thickest, else the straightest, else
 /// the first. Nodes that are not finite take their parent's place; coincident neighbours are merged (their number is
-/// added to *merged). Cost: linear; no recursion.
-AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps = RadiusSteps::kTaper, std::size_t* merged = nullptr);
+/// added to *merged). The i-th rider takes hold of node ridden[i] (-1: of none). Cost: linear; no recursion.
+AxisTree decompose_axes(const Skeleton& skeleton, RadiusSteps steps = RadiusSteps::kTaper, std::size_t* merged = nullptr,
+                        std::span<const std::int32_t> ridden = {});
 
 Vec3 position_at(const Axis& axis, const AxisPlace& place);
 double radius_at(const Axis& axis, const AxisPlace& place);

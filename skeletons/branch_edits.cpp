@@ -38,6 +38,9 @@ void cut_axis(AxisTree& tree, std::size_t index, const Prune& prune, Profile pro
     if (lateral.parent != static_cast<std::int32_t>(index)) continue;
     if (lateral.attach.segment + lateral.attach.t >= place.segment + place.t) beyond[k] = any = true;
   }
+  for (AxisRider& rider : tree.riders)
+    if (rider.axis == static_cast<std::int32_t>(index) && rider.place.segment + rider.place.t >= place.segment + place.t)
+      rider.axis = -1;
   // One node at the plane keeps the taper; internodes that are cones of their own go through in one.
   const std::size_t crossed = std::min<std::size_t>(place.segment + (place.t > 0 ? 1 : 0), axis.nodes.size() - 1);
   const double base_radius = profile == Profile::kGalbraith ? axis.nodes[crossed].base_radius : 0;

@@ -20,7 +20,7 @@ class Conditioner {
   Conditioner(AxisTree& tree, const ConditioningOptions& options, Profile profile, const std::vector<double>& bend,
               SurfaceReport& report)
       : axes_(tree.axes), tree_(tree), options_(options), profile_(profile), bend_(bend), report_(report),
-        laterals_(tree), moved_(tree.axes.size(), false), removed_(tree.axes.size(), false) {
+        laterals_(tree), riders_(tree.axes.size(), tree.riders, &AxisRider::axis), moved_(tree.axes.size(), false), removed_(tree.axes.size(), false) {
     double largest = 0;
     for (const Axis& axis : axes_)
       for (const AxisNode& node : axis.nodes) largest = std::max(largest, node.radius);
@@ -91,6 +91,7 @@ class Conditioner {
       moved_[k] = true;
       ++report_.laterals_rerooted;
     }
+    hand_over_riders(i, outside, place);
     report_.nodes_dropped += outside - 1;
     if (gone) {
       removed_[i] = true;
@@ -110,6 +111,24 @@ class Conditioner {
     axis.nodes[0] = {position_at(parent, axis.attach), glm::mix(a.radius, b.radius, out)};
     ++report_.laterals_rerooted;
     return true;
+  }
+
+  /// Riders on what goes up in the parent's solid, all before node `outside`, hold on to the parent from now on, and stay where they are.
+  void hand_over_riders(std::size_t i, std::size_t outside, const AxisPlace& near) {
+    const Axis& axis = axes_[i];
+    const Axis& parent = axes_[axis.parent];
+    for (const std::uint32_t k : riders_[i]) {
+      AxisRider& rider = tree_.riders[k];
+      if (outside < axis.nodes.size() && rider.place.segment + rider.place.t >= static_cast<double>(outside)) {
+        rider.place.segment -= static_cast<std::uint32_t>(outside - 1);
+        continue;
+      }
+      const Vec3 held = position_at(axis, rider.place);
+      rider.axis = axis.parent;
+      rider.place = walk_to_nearest(parent, near, held);
+      rider.offset = held - position_at(parent, rider.place);
+      rider.tangent = tangent_at(parent, rider.place);
+    }
   }
 
   void clamp_radii(Axis& axis) {
@@ -150,6 +169,10 @@ class Conditioner {
       AxisPlace& attach = axes_[k].attach;
       attach = place_of(path, attach.segment + attach.t);
     }
+    for (const std::uint32_t k : riders_[i]) {
+      AxisRider& rider = tree_.riders[k];
+      if (rider.axis == static_cast<std::int32_t>(i)) rider.place = place_of(path, rider.place.segment + rider.place.t);
+    }
   }
 
   std::vector<Axis>& axes_;
@@ -159,6 +182,7 @@ class Conditioner {
   const std::vector<double>& bend_;
   SurfaceReport& report_;
   const Laterals laterals_;                ///< as they were at first
+  const BorneBy riders_;                   ///< likewise
   std::vector<bool> moved_, removed_;
   double min_radius_ = 0, max_turn_ = 0, smooth_ = 0;
 };

@@ -1,4 +1,5 @@
 #include "blobtree/located_json.h"
+#include "skeletons/foliage_json.h"
 #include "skeletons/skeleton_io.h"
 #include "skeletons/skeleton_rows.h"
 
@@ -30,10 +31,10 @@ SkeletonRow read_node(const JsonValue& value, std::size_t index) {
 
 }  // namespace
 
-Skeleton parse_skel_json(std::string_view text, const std::string& file) {
+Plant parse_plant_json(std::string_view text, const std::string& file) {
   const LocatedJson document = LocatedJson::parse(std::string(text), file);
   const JsonValue root = document.root();
-  root.expect_keys({"format", "version", "nodes"});
+  root.expect_keys({"format", "version", "nodes", "shapes", "organs"});
   const JsonValue format = root.at("format");
   if (format.string() != "cambium-skeleton") format.fail(format.describe(), "\"cambium-skeleton\"");
   const JsonValue version = root.at("version");
@@ -43,7 +44,13 @@ Skeleton parse_skel_json(std::string_view text, const std::string& file) {
   std::vector<SkeletonRow> rows;
   rows.reserve(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) rows.push_back(read_node(nodes[i], i));
-  return skeleton_from_rows(rows, file);
+  Plant plant;
+  std::vector<std::int32_t> places;
+  plant.skeleton = skeleton_from_rows(rows, file, &places);
+  plant.foliage = read_foliage(root, places);
+  return plant;
 }
+
+Skeleton parse_skel_json(std::string_view text, const std::string& file) { return parse_plant_json(text, file).skeleton; }
 
 }  // namespace cambium

@@ -1,6 +1,7 @@
 #include "skeletons/skeleton_io.h"
 
 #include "blobtree/input_error.h"
+#include "skeletons/foliage_json.h"
 #include "skeletons/number_text.h"
 
 #include <cctype>
@@ -41,7 +42,7 @@ void append_position(std::string& out, const Vec3& p, char separator) {
   append_number(out, p.z);
 }
 
-std::string skel_json_text(const Skeleton& skeleton) {
+std::string skel_json_text(const Skeleton& skeleton, const Foliage& foliage) {
   std::string out = "{\"format\":\"cambium-skeleton\",\"version\":1,\"nodes\":[";
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
     const SkeletonNode& node = skeleton.nodes[i];
@@ -57,7 +58,9 @@ std::string skel_json_text(const Skeleton& skeleton) {
     if (node.lateral) out += *node.lateral ? ",\"lateral\":true" : ",\"lateral\":false";
     out += '}';
   }
-  return out + "\n]}\n";
+  out += "\n]";
+  append_foliage(out, foliage);
+  return out + "}\n";
 }
 
 std::string swc_text(const Skeleton& skeleton) {
@@ -75,25 +78,27 @@ std::string swc_text(const Skeleton& skeleton) {
 
 }  // namespace
 
-Skeleton read_skeleton(const std::filesystem::path& path) {
+Plant read_plant(const std::filesystem::path& path) {
   const std::string name = lower_case(path.filename().string());
+  if (ends_with(name, ".skel.json")) return parse_plant_json(read_text(path), path.string());
   Skeleton (*parse)(std::string_view, const std::string&) = nullptr;
-  if (ends_with(name, ".skel.json")) parse = parse_skel_json;
   if (ends_with(name, ".swc")) parse = parse_swc;
   if (ends_with(name, ".csv")) parse = parse_qsm_csv;
   if (!parse) throw InputError({path.string(), 0, 0}, "an unknown extension", "a .skel.json, .swc or .csv file");
-  return parse(read_text(path), path.string());
+  return {parse(read_text(path), path.string()), {}};
 }
 
-std::string skeleton_text(const Skeleton& skeleton, const std::string& format) {
+Skeleton read_skeleton(const std::filesystem::path& path) { return read_plant(path).skeleton; }
+
+std::string skeleton_text(const Skeleton& skeleton, const std::string& format, const Foliage& foliage) {
   const std::string kind = lower_case(!format.empty() && format[0] == '.' ? format.substr(1) : format);
-  if (kind == "skel.json") return skel_json_text(skeleton);
+  if (kind == "skel.json") return skel_json_text(skeleton, foliage);
   if (kind == "swc") return swc_text(skeleton);
   throw std::invalid_argument("skeleton format '" + format + "': expected skel.json or swc");
 }
 
-void write_skeleton(const Skeleton& skeleton, const std::filesystem::path& path, const std::string& format) {
-  const std::string text = skeleton_text(skeleton, format);
+void write_skeleton(const Skeleton& skeleton, const std::filesystem::path& path, const std::string& format, const Foliage& foliage) {
+  const std::string text = skeleton_text(skeleton, format, foliage);
   errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   if (out) out.write(text.data(), static_cast<std::streamsize>(text.size()));

@@ -88,7 +88,7 @@ std::vector<std::uint32_t> parents_first(const std::vector<std::int32_t>& parent
   return order;
 }
 
-Skeleton skeleton_from_rows(const std::vector<SkeletonRow>& rows, const std::string& file) {
+Skeleton skeleton_from_rows(const std::vector<SkeletonRow>& rows, const std::string& file, std::vector<std::int32_t>* places) {
   const std::vector<std::int32_t> parents = link_parents(rows, file);
   const std::vector<std::uint32_t> order = parents_first(parents);
   std::vector<std::int32_t> place(rows.size(), -1);
@@ -100,6 +100,7 @@ Skeleton skeleton_from_rows(const std::vector<SkeletonRow>& rows, const std::str
     node.parent = parents[i] < 0 ? -1 : place[parents[i]];
     skeleton.nodes.push_back(std::move(node));
   }
+  if (places) *places = std::move(place);
   return skeleton;
 }
 

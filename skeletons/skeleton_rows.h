@@ -24,7 +24,8 @@ std::vector<std::int32_t> link_parents(const std::vector<SkeletonRow>& rows, con
 /// Cost: linear; no recursion. `parents` must be free of cycles.
 std::vector<std::uint32_t> parents_first(const std::vector<std::int32_t>& parents);
 
-/// Both, and the nodes in that order. Errors: as link_parents.
-Skeleton skeleton_from_rows(const std::vector<SkeletonRow>& rows, const std::string& file);
+/// Both, and the nodes in that order; *places: which node each row became. Errors: as link_parents.
+Skeleton skeleton_from_rows(const std::vector<SkeletonRow>& rows, const std::string& file,
+                            std::vector<std::int32_t>* places = nullptr);
 
 }  // namespace cambium

@@ -3,6 +3,7 @@
 #include "blobtree/input_error.h"
 #include "skeletons/branch_edits.h"
 #include "skeletons/conditioning.h"
+#include "skeletons/foliage_follow.h"
 #include "skeletons/profiles.h"
 
 #include <algorithm>
@@ -50,7 +51,7 @@ std::vector<BranchInfo> branches_of(const AxisTree& tree) {
 
 }  // namespace
 
-Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
+Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const Foliage& foliage) {
   if (skeleton.nodes.empty()) throw InputError({}, "a skeleton without nodes", "at least one");
   check(options);
   Surfaced made;
@@ -58,13 +59,14 @@ Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options) {
   for (const SkeletonNode& node : skeleton.nodes) report.internodes_in += node.parent >= 0 ? 1 : 0;
 
   const RadiusSteps steps = options.profile == Profile::kChain ? RadiusSteps::kTaper : RadiusSteps::kKeep;
-  AxisTree tree = decompose_axes(skeleton, steps, &report.nodes_dropped);
+  AxisTree tree = decompose_axes(skeleton, steps, &report.nodes_dropped, nodes_ridden(foliage));
   condition(tree, options.conditioning, options.profile, options.bend, report);
   apply_prunes(tree, options.prunes, options.profile, report);
   const std::vector<AxisFrame> frames = frames_of(tree);
   const std::vector<PlacedScar> scars = place_scars(tree, frames, options, report);
   describe(tree, report);
   made.branches = branches_of(tree);
+  follow_wood(foliage, skeleton, tree, made);
 
   BlobTreeBuilder builder;
   const auto build = options.profile == Profile::kChain ? build_chain_profile : build_galbraith_profile;

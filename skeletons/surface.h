@@ -4,6 +4,7 @@
 #include "blobtree/blobtree.h"
 #include "blobtree/branch_info.h"
 #include "blobtree/run_options.h"
+#include "skeletons/foliage.h"
 #include "skeletons/skeleton.h"
 
 #include <optional>
@@ -68,6 +69,7 @@ struct SurfaceReport {
   std::size_t nodes_dropped = 0;       ///< inside their parent's solid, or merged
   std::size_t laterals_rerooted = 0;
   double largest_move = 0;             ///< metres, by smoothing
+  std::size_t organs_pruned = 0;       ///< that went with the wood they were on
   double min_radius = 0, max_radius = 0, total_length = 0;
   std::vector<std::string> notes;      ///< one sentence each
 };
@@ -76,10 +78,15 @@ struct Surfaced {
   BlobTree tree;
   SurfaceReport report;
   std::vector<BranchInfo> branches;    ///< by branch id; defaults for ids whose axis was pruned away
+  Foliage foliage;                     ///< that is left, moved and turned along with the wood it is on
+  std::vector<std::uint32_t> organ_branches;  ///< by organ: the branch that bears it; the trunk for one that is on no node
 };
 
 /// Never fails on a valid skeleton with at least one internode. Deterministic for a seed. Cost: linear in the internodes that come out.
+/// The foliage follows its nodes as they are smoothed, re-rooted and bent on the chain profile, but not through galbraith's bends, which
+/// are warps of the field; what is on wood beyond a prune is left out.
 /// Errors: InputError without a location (the caller knows the file) for an empty skeleton, or a prune or scar that names no branch.
-Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options);
+/// Precondition: the foliage's nodes are the skeleton's.
+Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const Foliage& foliage = {});
 
 }  // namespace cambium
