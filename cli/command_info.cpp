@@ -53,6 +53,13 @@ Json list_branches(const BlobTree& tree) {
   return list;
 }
 
+/// By name.
+Json organ_counts(const Foliage& foliage) {
+  std::map<std::string, std::size_t> counts;
+  for (const OrganPlacement& organ : foliage.organs) ++counts[foliage.shapes[organ.shape].name];
+  return counts;
+}
+
 void report_surface(Job& job, const SurfaceReport& report) {
   Figures& figures = job.figures;
   figures.set("internodes_in", report.internodes_in);
@@ -65,6 +72,7 @@ void report_surface(Job& job, const SurfaceReport& report) {
                                {"nodes_dropped", report.nodes_dropped},
                                {"laterals_rerooted", report.laterals_rerooted},
                                {"largest_move", report.largest_move}});
+  if (report.organs_pruned > 0) figures.set("organs_pruned", report.organs_pruned);
   figures.set("notes", report.notes);
 }
 
@@ -75,6 +83,7 @@ Outcome run_info(Job& job) {
   if (!built) return Outcome::kInterrupted;
   const Field field = compile_field(job, built->tree);
   if (built->report) report_surface(job, *built->report);
+  if (!built->foliage.organs.empty()) job.figures.set("organs", organ_counts(built->foliage));
   double min_radius = kInfinity, max_radius = 0;
   for (std::uint32_t atom = 0; atom < field.atom_count(); ++atom) {
     const double radius = field.atom_radius(atom);

@@ -28,6 +28,7 @@ void add_common(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(1.0, 4e9));
   app.add_flag("--quiet", line.quiet, "print errors only");
   app.add_flag("--json", line.json, "one object of figures on stdout");
+  app.add_flag("--no-leaves", line.no_leaves, "leave leaves and other organs out");
   app.add_option("--set", line.overrides, "key=value: overrides a recipe key, such as surface.lip=2 or prune.0.branch=3")
       ->allow_extra_args(false);
 }

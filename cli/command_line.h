@@ -24,6 +24,7 @@ struct CommandLine {
   std::optional<int> step;                   ///< derive
   bool explain = false;                      ///< derive
   bool quiet = false, json = false;
+  bool no_leaves = false;
   std::vector<std::string> overrides;        ///< of --set
   std::string points;                        ///< eval
   std::string voxel;                         ///< mesh, volume

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "cli/commands.h"
+#include "cli/leaves.h"
 #include "cli/mesh_figures.h"
 #include "cli/mesh_look.h"
 #include "cli/output_file.h"
@@ -117,6 +118,16 @@ std::optional<std::vector<Verification>> verify_levels(Job& job, const std::vect
   return verified;
 }
 
+/// None, with a warning, where the file has no place for them.
+std::vector<MeshLeaves> make_leaves(Job& job, const BuiltTree& built, const std::string& format) {
+  if (built.foliage.organs.empty()) return {};
+  if (!holds_leaves(format)) {
+    job.warnings.push_back("the leaves are left out: a " + format + " holds the closed wood alone; .glb and .obj take them");
+    return {};
+  }
+  return merged_leaves(job.recipe, dress_leaves(job, built), job.warnings);
+}
+
 /// Down to which share of the screen's height a level is for: where the next has as many triangles to the pixel as the first one
 /// when it fills the screen.
 double screen_coverage(const std::vector<Mesh>& levels, std::size_t level) {
@@ -126,10 +137,12 @@ double screen_coverage(const std::vector<Mesh>& levels, std::size_t level) {
 }
 
 void write_levels(Job& job, const std::vector<Mesh>& levels, const std::vector<MeshAttributes>& attributes,
-                  std::vector<MeshMaterial> materials, const MeshRequest& request, std::deque<OutputFile>& outputs) {
+                  std::vector<MeshMaterial> materials, std::span<const MeshLeaves> leaves, const MeshRequest& request,
+                  std::deque<OutputFile>& outputs) {
   const StageTimer timer(job.figures, "write");
   MeshFile all;
   all.materials = std::move(materials);
+  all.leaves = leaves;
   for (std::size_t i = 0; i < levels.size(); ++i)
     all.levels.push_back({&levels[i], attributes.empty() ? nullptr : &attributes[i], screen_coverage(levels, i)});
   if (outputs.size() == 1) {
@@ -154,6 +167,7 @@ Outcome run_mesh(Job& job) {
   const auto built = build_tree(job, preview ? kThinnestOfPreviews : 0);
   if (!built || job.run.cancelled()) return Outcome::kInterrupted;
   const Field field = compile_field(job, built->tree);
+  const std::vector<MeshLeaves> leaves = make_leaves(job, *built, request.format);
   auto made = polygonize_field(job, field, request.mesh.polygonize);
   if (!made) return Outcome::kInterrupted;
   const auto levels = make_levels(job, made->mesh, request.mesh.lod);
@@ -180,7 +194,7 @@ Outcome run_mesh(Job& job) {
     if (!verified) return Outcome::kInterrupted;
     set_verify_figures(job, *verified, options.tolerance);
   }
-  write_levels(job, *levels, attributes, std::move(look.materials), request, outputs);
+  write_levels(job, *levels, attributes, std::move(look.materials), leaves, request, outputs);
   if (job.run.cancelled()) return Outcome::kInterrupted;
   for (OutputFile& output : outputs) output.commit();
   return Outcome::kDone;

@@ -10,6 +10,7 @@
 #include "cli/close_up.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/leaves.h"
 #include "cli/picture_files.h"
 #include "cli/recipe_render.h"
 #include "cli/units.h"
@@ -133,9 +134,10 @@ Outcome run_render(Job& job) {
   if (job.line.close_up) job.recipe.render.close_up = NamedBranch{*job.line.close_up, {"--close-up"}};
   aim_at_branches(job.recipe.render, field, built->branches);
   options.camera = job.recipe.render.camera;
+  Leaves leaves = dress_leaves(job, *built);
   const auto renderer = [&] {
     const StageTimer timer(job.figures, "render_cover");
-    return Renderer::make(field, job.run);
+    return Renderer::make(field, job.run, std::move(leaves.scene));
   }();
   if (!renderer) return Outcome::kInterrupted;
   Json written = Json::array();

@@ -75,11 +75,13 @@ Outcome run_derive(Job& job) {
 Outcome run_grow(Job& job) {
   const std::string format = require_extension(job.line.output, {".skel.json", ".swc"});
   OutputFile output(job.line.output);
-  const auto skeleton = grow_skeleton(job);
-  if (!skeleton) return Outcome::kInterrupted;
+  const auto plant = grow_plant(job);
+  if (!plant) return Outcome::kInterrupted;
   const StageTimer timer(job.figures, "write");
-  write_skeleton(*skeleton, output.temporary(), format);
-  job.figures.set("nodes", skeleton->nodes.size());
+  write_skeleton(plant->skeleton, output.temporary(), format, plant->foliage);
+  job.figures.set("nodes", plant->skeleton.nodes.size());
+  if (!plant->foliage.organs.empty()) job.figures.set("organs", plant->foliage.organs.size());
+  if (format == ".swc" && !plant->foliage.organs.empty()) job.warnings.push_back("the leaves are left out: a .swc has no place for them");
   if (job.run.cancelled()) return Outcome::kInterrupted;
   output.commit();
   return Outcome::kDone;

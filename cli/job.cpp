@@ -6,7 +6,6 @@
 #include "blobtree/blobtree_json.h"
 #include "cli/read_text.h"
 #include "raytrace/environment.h"
-#include "skeletons/skeleton_io.h"
 
 namespace cambium {
 namespace {
@@ -26,21 +25,34 @@ void find_source(Job& job) {
   require_readable(job.source, job.source == job.line.input ? nullptr : &skeleton.named_at);
 }
 
-std::optional<Skeleton> walk_turtle(Job& job, const ModuleString& string, const LSystem& system) {
+std::optional<Plant> walk_turtle(Job& job, const ModuleString& string, const LSystem& system) {
   const StageTimer timer(job.figures, "turtle");
   auto turtled = interpret(string, system, job.recipe.skeleton.turtle, job.run);
   if (!turtled) return std::nullopt;
   if (turtled->radii_clamped > 0) job.figures.set("turtle_radii_clamped", turtled->radii_clamped);
   if (!turtled->skipped.empty()) job.figures.set("skipped_symbols", turtled->skipped);
-  return std::move(turtled->skeleton);
+  return Plant{std::move(turtled->skeleton), std::move(turtled->foliage)};
+}
+
+/// What the source says is there, leaves and all.
+std::optional<Plant> read_or_grow(Job& job) {
+  if (job.source_kind == InputKind::kSkeleton) {
+    const StageTimer timer(job.figures, "read");
+    return read_plant(job.source);
+  }
+  const LSystem system = LSystem::load(job.source, job.recipe.skeleton.label);
+  const auto string = derive_string(job, system);
+  if (!string || job.run.cancelled()) return std::nullopt;
+  return walk_turtle(job, *string, system);
 }
 
 /// surface() knows no files. Where it refuses one of the recipe's prunes or scars, the place in the recipe is that of the
 /// first that is refused alone.
-Surfaced surface_with_places(const Job& job, const Skeleton& skeleton) {
+Surfaced surface_with_places(const Job& job, const Plant& plant) {
+  const Skeleton& skeleton = plant.skeleton;
   const SurfaceOptions& options = job.recipe.surface;
   try {
-    return surface(skeleton, options);
+    return surface(skeleton, options, plant.foliage);
   } catch (const InputError& error) {
     if (!error.location().file.empty()) throw;
     const auto refused_alone = [&](const std::vector<Prune>& prunes, const std::vector<Scar>& scars) {
@@ -79,6 +91,7 @@ Job::Job(const CommandLine& command_line, const std::atomic<bool>& cancel)
     recipe.surface.seed = *line.seed;
     recipe.render.seed = *line.seed;
   }
+  if (line.no_leaves) recipe.leaves = false;
   run.threads = line.threads;
   run.cancel = &cancel;
   run.progress = [this](std::string_view stage, double fraction) { progress.show(stage, fraction); };
@@ -106,37 +119,33 @@ std::optional<ModuleString> derive_string(Job& job, const LSystem& system) {
   return derive(system, derive_options(job), job.run);
 }
 
-std::optional<Skeleton> grow_skeleton(Job& job) {
+std::optional<Plant> grow_plant(Job& job) {
   if (job.source_kind == InputKind::kBlobTree)
     throw InputError({job.source.string()}, "a BlobTree",
                      "an input with a skeleton: .tree.toml, .l, .lpy, .skel.json, .swc or .csv");
-  if (job.source_kind == InputKind::kSkeleton) {
-    const StageTimer timer(job.figures, "read");
-    return read_skeleton(job.source);
-  }
-  const LSystem system = load_lsystem(job);
-  const auto string = derive_string(job, system);
-  if (!string || job.run.cancelled()) return std::nullopt;
-  return walk_turtle(job, *string, system);
+  auto plant = read_or_grow(job);
+  if (plant && !job.recipe.leaves) plant->foliage = {};
+  return plant;
 }
 
 std::optional<BuiltTree> build_tree(Job& job, double thinnest) {
   if (job.source_kind == InputKind::kBlobTree) {
     const StageTimer timer(job.figures, "read");
-    return BuiltTree{read_blobtree(job.source), std::nullopt, {}};
+    return BuiltTree{read_blobtree(job.source), std::nullopt, {}, {}, {}};
   }
-  const auto skeleton = grow_skeleton(job);
-  if (!skeleton || job.run.cancelled()) return std::nullopt;
+  const auto plant = grow_plant(job);
+  if (!plant || job.run.cancelled()) return std::nullopt;
   if (thinnest > 0) {
     Box bounds;
-    for (const SkeletonNode& node : skeleton->nodes) bounds.extend(node.position);
+    for (const SkeletonNode& node : plant->skeleton.nodes) bounds.extend(node.position);
     std::optional<double>& least = job.recipe.surface.conditioning.min_radius;
     const double radius = bounds.empty() ? 0 : thinnest * glm::length(bounds.size());
     if (radius > least.value_or(0)) least = radius;
   }
   const StageTimer timer(job.figures, "surface");
-  Surfaced surfaced = surface_with_places(job, *skeleton);
-  return BuiltTree{std::move(surfaced.tree), std::move(surfaced.report), std::move(surfaced.branches)};
+  Surfaced surfaced = surface_with_places(job, *plant);
+  return BuiltTree{std::move(surfaced.tree), std::move(surfaced.report), std::move(surfaced.branches), std::move(surfaced.foliage),
+                   std::move(surfaced.organ_branches)};
 }
 
 Field compile_field(Job& job, const BlobTree& tree) {
@@ -155,7 +164,7 @@ std::optional<Field> build_field(Job& job) {
 }
 
 std::vector<BarkMaterial> load_bark(const Recipe& recipe) {
-  const auto load = [](const std::optional<BarkImage>& image, TextureUse use) -> std::shared_ptr<const TextureImage> {
+  const auto load = [](const std::optional<NamedFile>& image, TextureUse use) -> std::shared_ptr<const TextureImage> {
     if (!image) return nullptr;
     require_readable(image->file, &image->named_at);
     return load_texture(image->file, use);

@@ -13,6 +13,7 @@
 #include "cli/input_kind.h"
 #include "cli/progress.h"
 #include "cli/recipe.h"
+#include "skeletons/skeleton_io.h"
 
 namespace cambium {
 
@@ -43,13 +44,16 @@ LSystem load_lsystem(const Job& job);
 /// What the command line and the recipe say of a derivation; the model's printf goes to stderr unless --quiet.
 DeriveOptions derive_options(const Job& job);
 std::optional<ModuleString> derive_string(Job& job, const LSystem& system);
-std::optional<Skeleton> grow_skeleton(Job& job);
+/// With the foliage that it bears, unless the recipe or --no-leaves leaves that out.
+std::optional<Plant> grow_plant(Job& job);
 
 /// A BlobTree and, unless it was read from a file, what happened on the way to it.
 struct BuiltTree {
   BlobTree tree;
   std::optional<SurfaceReport> report;
   std::vector<BranchInfo> branches;              ///< by id; empty if it was read from a file
+  Foliage foliage;                               ///< where the surfaced wood bears it
+  std::vector<std::uint32_t> organ_branches;     ///< by organ
 };
 /// thinnest: twigs of a skeleton are thickened to this part of its diagonal, for what is only a first look.
 std::optional<BuiltTree> build_tree(Job& job, double thinnest = 0);

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "cli/image_files.h"
 #include "cli/job.h"
-#include "cli/read_text.h"
 #include "raytrace/texture_image.h"
 
 namespace cambium {
@@ -18,28 +18,6 @@ std::uint8_t srgb_byte(double linear) {
   const double srgb = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
   return static_cast<std::uint8_t>(std::lround(255 * srgb));
 }
-
-/// Images as a .glb takes them along, each read once: orders often share one.
-class ImageFiles {
- public:
-  explicit ImageFiles(std::vector<std::string>& warnings) : warnings_(warnings) {}
-
-  /// Null, with a warning that ends in `otherwise`, where the file is no PNG or JPEG.
-  std::shared_ptr<const std::string> read(const std::filesystem::path& path, const std::string& otherwise) {
-    const auto known = std::find_if(read_.begin(), read_.end(), [&](const auto& entry) { return entry.first == path; });
-    if (known != read_.end()) return known->second;
-    auto bytes = std::make_shared<const std::string>(read_text(path));
-    if (image_type(*bytes).empty()) {
-      warnings_.push_back(path.string() + " is neither PNG nor JPEG, as a .glb's textures are: " + otherwise);
-      bytes = nullptr;
-    }
-    return read_.emplace_back(path, std::move(bytes)).second;
-  }
-
- private:
-  std::vector<std::pair<std::filesystem::path, std::shared_ptr<const std::string>>> read_;
-  std::vector<std::string>& warnings_;
-};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cli/read_text.h"
+#include "cli/recipe_leaf.h"
 #include "cli/recipe_override.h"
 #include "cli/recipe_render.h"
 #include "cli/recipe_value.h"
@@ -222,6 +223,8 @@ const KeyRule<Recipe> kRecipeKeys[] = {
     {"scar", read_scars},
     {"scars", [](const RecipeValue& v, Recipe& r) { read_table(v, kRandomScarsKeys, r.surface.random_scars); }},
     {"bark", read_bark},
+    {"leaves", [](const RecipeValue& v, Recipe& r) { r.leaves = v.flag(); }},
+    {"leaf", [](const RecipeValue& v, Recipe& r) { r.leaf = read_leaves(v); }},
     {"render", [](const RecipeValue& v, Recipe& r) { read_render(v, r.render); }},
     {"mesh", [](const RecipeValue& v, Recipe& r) { read_table(v, kMeshKeys, r.mesh); }},
     {"volume", [](const RecipeValue& v, Recipe& r) { read_table(v, kVolumeKeys, r.volume); }},

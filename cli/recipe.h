@@ -1,6 +1,7 @@
 // The recipe (*.tree.toml): everything about one tree in one commented file.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -28,17 +29,31 @@ struct SkeletonRecipe {
   TurtleOptions turtle;
 };
 
-struct BarkImage {
+/// A file that a recipe names. Only commands that need it read it.
+struct NamedFile {
   std::filesystem::path file;
   SourceLocation named_at;
 };
 
-/// [bark] and [[bark.order]]: what one branch order is covered with. Images are loaded only by commands that colour.
+/// [bark] and [[bark.order]]: what one branch order is covered with.
 struct BarkRecipe {
   BarkMaterial material;                            ///< without its images
-  std::optional<BarkImage> texture;
-  std::optional<BarkImage> normal_map, roughness_map;  ///< only beside a texture
+  std::optional<NamedFile> texture;
+  std::optional<NamedFile> normal_map, roughness_map;  ///< only beside a texture
   TextureUse normal_convention = TextureUse::kNormalOpenGl;
+};
+
+/// [[leaf]]: what organs of a name look like.
+struct LeafRecipe {
+  std::string name = "*";                  ///< "*": all; "polygon": all that the L-system drew between { and }
+  std::optional<NamedFile> mesh;           ///< an .obj; x to the left, y along the leaf from where it is held, z out of its face
+  std::optional<std::array<double, 2>> card;  ///< width and length, metres; neither this nor a mesh: as the organ itself is drawn
+  double scale = 1;
+  std::optional<Vec3> color;               ///< linear; unset: white with a texture, else leaf green
+  std::optional<NamedFile> texture;
+  double translucency = 0.35, roughness = 0.5;   ///< of FoliageMaterial
+
+  bool matches(std::string_view organ) const;
 };
 
 /// A branch that a recipe names by its number.
@@ -73,6 +88,8 @@ struct Recipe {
   SurfaceOptions surface;
   std::vector<SourceLocation> prunes_at, scars_at;  ///< of surface.prunes and surface.scars
   std::vector<BarkRecipe> bark;                     ///< by branch order, the last goes on; empty: the built-in
+  bool leaves = true;                               ///< unset: foliage is left out
+  std::vector<LeafRecipe> leaf;                     ///< the first that matches an organ is its; none: as drawn, green
   RenderRecipe render;                              ///< its bark is empty
   MeshRecipe mesh;
   VolumeOptions volume;

@@ -4,13 +4,13 @@ include(CMakePackageConfigHelpers)
 set(public_headers
   blobtree/blobtree.h blobtree/blobtree_json.h blobtree/cell_grid.h blobtree/cell_search.h blobtree/field.h blobtree/geometry.h
   blobtree/id_table.h blobtree/input_error.h blobtree/invalid_node.h blobtree/node_store.h blobtree/nodes.h blobtree/run_options.h
-  blobtree/branch_info.h blobtree/choices.h blobtree/surface_cover.h
+  blobtree/branch_info.h blobtree/choices.h blobtree/sheet.h blobtree/surface_cover.h
   skeletons/foliage.h skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
   lsystem/lsystem.h
   polygonize/ambient_occlusion.h polygonize/decimate.h polygonize/mesh.h polygonize/mesh_attributes.h polygonize/mesh_io.h
   polygonize/polygonize.h polygonize/verify.h polygonize/volume.h
   raytrace/aov.h raytrace/bark.h raytrace/bark_noise.h raytrace/bark_number.h raytrace/bark_pattern.h raytrace/camera.h
-  raytrace/environment.h raytrace/film.h raytrace/image_file.h raytrace/light.h raytrace/path_options.h
+  raytrace/environment.h raytrace/film.h raytrace/foliage_scene.h raytrace/foliage_texture.h raytrace/image_file.h raytrace/light.h raytrace/path_options.h
   raytrace/pixel_rect.h raytrace/render.h raytrace/sampling.h raytrace/texture_image.h)
 foreach(header ${public_headers})
   get_filename_component(folder ${header} DIRECTORY)

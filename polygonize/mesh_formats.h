@@ -55,7 +55,7 @@ class ByteSink {
 /// extension: "stl" (binary) or "off".
 bool write_with_openmesh(const MeshLevel& level, std::ostream& out, const std::string& extension, UpAxis up);
 
-bool write_obj(const MeshLevel& level, std::ostream& out, UpAxis up);
+bool write_obj(const MeshLevel& level, std::span<const MeshLeaves> leaves, std::ostream& out, UpAxis up);
 
 /// Binary, little-endian.
 bool write_ply(const MeshLevel& level, std::ostream& out, UpAxis up);

@@ -16,12 +16,14 @@ namespace {
 bool write(const MeshFile& file, std::ostream& out, const std::string& extension, UpAxis up) {
   if (extension == ".glb") return write_glb(file, out);
   const MeshLevel& level = file.levels.front();
-  if (extension == ".obj") return write_obj(level, out, up);
+  if (extension == ".obj") return write_obj(level, file.leaves, out, up);
   if (extension == ".ply") return write_ply(level, out, up);
   return write_with_openmesh(level, out, extension.substr(1), up);
 }
 
 }  // namespace
+
+bool holds_leaves(std::string_view format) { return format == ".glb" || format == ".obj"; }
 
 std::string image_type(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
@@ -41,9 +43,12 @@ void write_mesh(const MeshFile& file, const std::filesystem::path& path, const s
   if (file.levels.size() > 1 && extension != ".glb")
     throw InputError({path.string(), 0, 0}, std::to_string(file.levels.size()) + " levels of detail in one " + extension,
                      "one level, or .glb");
-  for (const MeshMaterial& material : file.materials)
+  const auto require_known_image = [&](const MeshMaterial& material) {
     if (material.texture && image_type(*material.texture).empty())
       throw InputError({path.string(), 0, 0}, "a texture of " + material.name + " in another format", "PNG or JPEG");
+  };
+  for (const MeshMaterial& material : file.materials) require_known_image(material);
+  for (const MeshLeaves& leaves : file.leaves) require_known_image(leaves.material);
   errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   const auto fail = [&](const std::string& reason) {
@@ -64,7 +69,7 @@ void write_mesh(const MeshFile& file, const std::filesystem::path& path, const s
 }
 
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const std::string& format, UpAxis up) {
-  write_mesh(MeshFile{{{&mesh, nullptr, 0}}, {}}, path, format, up);
+  write_mesh(MeshFile{{{&mesh, nullptr, 0}}, {}, {}}, path, format, up);
 }
 
 }  // namespace cambium

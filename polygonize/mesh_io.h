@@ -1,6 +1,7 @@
 // Meshes to files, chosen by extension: .glb, .obj, .ply, .stl, .off.
 #pragma once
 
+#include "blobtree/sheet.h"
 #include "polygonize/mesh.h"
 #include "polygonize/mesh_attributes.h"
 
@@ -24,6 +25,15 @@ struct MeshMaterial {
   std::shared_ptr<const std::string> texture;    ///< as image_type has it; null: none. Shared ones are stored once
   std::shared_ptr<const std::string> normal_map = nullptr;      ///< likewise; y upwards in the image
   std::shared_ptr<const std::string> roughness_map = nullptr;   ///< likewise; roughness in green, times the number above
+  bool leaf = false;                             ///< seen from both sides, and cut out where the texture's alpha is below a half
+};
+
+/// Leaves of one material, each where it is. Open, so they are no part of any level's closed mesh.
+struct MeshLeaves {
+  Sheet sheet;                                   ///< metres, z up
+  std::vector<std::uint32_t> branch;             ///< by vertex: which branch bears its leaf
+  std::vector<glm::vec3> pivot;                  ///< by vertex: where its leaf is held
+  MeshMaterial material;
 };
 
 /// "image/png" or "image/jpeg", by a file's first bytes; "" for anything else, which no .glb can take along.
@@ -39,12 +49,18 @@ struct MeshLevel {
 struct MeshFile {
   std::vector<MeshLevel> levels;                 ///< finest first; only .glb takes more than one (MSFT_lod)
   std::vector<MeshMaterial> materials;           ///< by branch order, the last one goes on; empty: a default
+  std::span<const MeshLeaves> leaves = {};       ///< beside every level; formats without a place for them leave them out
 };
+
+/// Whether files of that extension (with its dot) hold leaves: .glb and .obj.
+bool holds_leaves(std::string_view format);
 
 /// Writes to exactly `path` (the caller writes beside and renames); `format` is the extension with its dot (".obj"), since the
 /// path may be a temporary name. glTF is always y-up.
-///   .glb  everything: normals split at creases, tangents, a primitive for each bark, custom attributes (_BRANCH ...), levels
-///   .obj  positions, uv, normals split at creases, smoothing groups; no materials, which would take a second file
+///   .glb  everything: normals split at creases, tangents, a primitive for each bark, custom attributes (_BRANCH ...), levels;
+///         leaves are a mesh of their own with a primitive for each material
+///   .obj  positions, uv, normals split at creases, smoothing groups; no materials, which would take a second file; leaves are an
+///         object of their own that names one
 ///   .ply  every vertex attribute as a property, uv by corner, creases as an element `edge`
 ///   .off  positions, normals, colours;  .stl  facets
 /// Errors: InputError for an unknown extension, no level, several where the format has one, or a texture that is neither PNG nor

@@ -130,6 +130,8 @@ void add_materials(const std::vector<MeshMaterial>& materials, Document& documen
     if (material.roughness_map) look["metallicRoughnessTexture"] = textures.reference(material.roughness_map);
     Json entry = {{"name", material.name}, {"pbrMetallicRoughness", std::move(look)}};
     if (material.normal_map) entry["normalTexture"] = textures.reference(material.normal_map);
+    if (material.leaf) entry["doubleSided"] = true;
+    if (material.leaf && material.texture) entry["alphaMode"] = "MASK";
     document.add("materials", std::move(entry));
   }
 }
@@ -240,6 +242,42 @@ Json add_mesh(const MeshLevel& level, const SplitMesh& split, std::size_t materi
   return {{"name", std::move(name)}, {"primitives", std::move(primitives)}};
 }
 
+/// One part of the leaves: its vertices are in place, and outlive the writer.
+Json leaf_primitive(const MeshLeaves& leaves, std::size_t material, Document& document) {
+  const Sheet& sheet = leaves.sheet;
+  const std::size_t count = sheet.positions.size();
+  Json attributes;
+  glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+  for (const glm::vec3& p : sheet.positions) low = glm::min(low, y_up(p)), high = glm::max(high, y_up(p));
+  attributes["POSITION"] =
+      document.add_accessor(count, "VEC3", kFloat, kVertices, [&sheet](std::size_t i) { return y_up(sheet.positions[i]); });
+  Json& positions = document.json()["accessors"].back();
+  positions["min"] = {low.x, low.y, low.z};
+  positions["max"] = {high.x, high.y, high.z};
+  attributes["NORMAL"] =
+      document.add_accessor(count, "VEC3", kFloat, kVertices, [&sheet](std::size_t i) { return y_up(sheet.normals[i]); });
+  attributes["TEXCOORD_0"] = document.add_accessor(
+      count, "VEC2", kFloat, kVertices, [&sheet](std::size_t i) { return glm::vec2(sheet.uvs[i].x, 1 - sheet.uvs[i].y); });
+  attributes["_BRANCH"] = document.add_accessor(count, "SCALAR", kFloat, kVertices,
+                                                [&leaves](std::size_t i) { return static_cast<float>(leaves.branch[i]); });
+  attributes["_PIVOT"] =
+      document.add_accessor(count, "VEC3", kFloat, kVertices, [&leaves](std::size_t i) { return y_up(leaves.pivot[i]); });
+  const std::size_t view = document.add_view(12 * sheet.triangles.size(), kIndices, [&sheet](ByteSink& sink) {
+    sink.raw(sheet.triangles.data(), 12 * sheet.triangles.size());
+  });
+  const std::size_t indices = document.add(
+      "accessors", {{"bufferView", view}, {"componentType", kUnsignedInt}, {"count", 3 * sheet.triangles.size()}, {"type", "SCALAR"}});
+  return {{"attributes", attributes}, {"indices", indices}, {"material", material}};
+}
+
+/// The mesh and its node; the index of that. Their materials are the file's last ones.
+std::size_t add_leaves(std::span<const MeshLeaves> leaves, std::size_t first_material, Document& document) {
+  Json primitives = Json::array();
+  for (std::size_t i = 0; i < leaves.size(); ++i) primitives.push_back(leaf_primitive(leaves[i], first_material + i, document));
+  const std::size_t mesh = document.add("meshes", {{"name", "leaves"}, {"primitives", std::move(primitives)}});
+  return document.add("nodes", {{"name", "leaves"}, {"mesh", mesh}});
+}
+
 }  // namespace
 
 bool write_glb(const MeshFile& file, std::ostream& out) {
@@ -249,7 +287,9 @@ bool write_glb(const MeshFile& file, std::ostream& out) {
     if (!level.mesh->triangles.empty()) levels.push_back(&level);
   if (levels.empty()) return document.write(out);
 
-  const std::vector<MeshMaterial> materials = file.materials.empty() ? std::vector<MeshMaterial>(1) : file.materials;
+  std::vector<MeshMaterial> materials = file.materials.empty() ? std::vector<MeshMaterial>(1) : file.materials;
+  const std::size_t barks = materials.size();
+  for (const MeshLeaves& leaves : file.leaves) materials.push_back(leaves.material);
   add_materials(materials, document);
   std::vector<SplitMesh> splits;
   splits.reserve(levels.size());
@@ -257,12 +297,13 @@ bool write_glb(const MeshFile& file, std::ostream& out) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     splits.push_back(split_vertices(*levels[i]->mesh, levels[i]->attributes));
     const std::string name = levels.size() == 1 ? "tree" : "tree LOD" + std::to_string(i);
-    const std::size_t mesh = document.add("meshes", add_mesh(*levels[i], splits[i], materials.size(), name, document));
+    const std::size_t mesh = document.add("meshes", add_mesh(*levels[i], splits[i], barks, name, document));
     const std::size_t node = document.add("nodes", {{"name", name}, {"mesh", mesh}});
     if (i > 0) others.push_back(node);
     coverage.push_back(levels[i]->screen_coverage);
   }
   document.json()["scenes"][0]["nodes"] = {0};
+  if (!file.leaves.empty()) document.json()["scenes"][0]["nodes"].push_back(add_leaves(file.leaves, barks, document));
   if (levels.size() > 1) {
     document.json()["extensionsUsed"] = {"MSFT_lod"};
     document.json()["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = others;

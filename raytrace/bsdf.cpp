@@ -121,8 +121,14 @@ Bsdf::Bsdf(const Surface& surface, const Vec3& out)
   out_ = local(out);
   alpha_ = std::clamp(surface.roughness * surface.roughness, kLeastAlpha, 1.0);
   const double mirrored = coated_ ? coat_albedo(out_.z, alpha_) : 0;
-  body_ = surface.albedo * (1 - mirrored) / (kPi * (1 - (coated_ ? mean_coat_albedo(alpha_) : 0)));
-  const Vec3 from_body = surface.albedo * (1 - mirrored);
+  const double coats = kPi * (1 - (coated_ ? mean_coat_albedo(alpha_) : 0));
+  body_ = surface.albedo * (1 - mirrored) / coats;
+  Vec3 from_body = surface.albedo * (1 - mirrored);
+  if (surface.through != Vec3(0.0)) {
+    through_ = surface.through * (1 - mirrored) / coats;
+    through_share_ = luminance(surface.through) / std::max(1e-9, luminance(surface.through + surface.albedo));
+    from_body += surface.through * (1 - mirrored);
+  }
   reflectance_ = mirrored + from_body;
   coat_share_ = coated_ ? mirrored / (mirrored + std::max(luminance(from_body), 1e-3)) : 0;
 }
@@ -141,6 +147,7 @@ double Bsdf::coat_pdf(const Vec3& in) const {
 Vec3 Bsdf::value(const Vec3& direction) const {
   const double above = glm::dot(geometric_, direction);
   const Vec3 in = local(direction);
+  if (through_share_ > 0 && above < 0 && in.z < 0) return -in.z * (coated_ ? 1 - coat_albedo(-in.z, alpha_) : 1) * through_;
   if (!(above > 0 && in.z > 0)) return Vec3(0.0);
   const double slant = above / std::max(1e-6, in.z * glm::dot(geometric_, n_));
   const double faded = slant >= 1 ? 1 : slant * (1 + slant - slant * slant);
@@ -150,8 +157,8 @@ Vec3 Bsdf::value(const Vec3& direction) const {
 
 double Bsdf::pdf(const Vec3& direction) const {
   const Vec3 in = local(direction);
-  if (!(in.z > 0)) return 0;
-  return (1 - coat_share_) * in.z / kPi + (coated_ ? coat_share_ * coat_pdf(in) : 0);
+  if (!(in.z > 0)) return (1 - coat_share_) * through_share_ * -in.z / kPi;
+  return (1 - coat_share_) * (1 - through_share_) * in.z / kPi + (coated_ ? coat_share_ * coat_pdf(in) : 0);
 }
 
 BsdfSample Bsdf::sample(const std::array<double, 2>& sample) const {
@@ -160,7 +167,11 @@ BsdfSample Bsdf::sample(const std::array<double, 2>& sample) const {
     const Vec3 half = seen_facet(out_, alpha_, {sample[0] / coat_share_, sample[1]});
     in = 2 * glm::dot(out_, half) * half - out_;
   } else {
-    in = cosine_direction({0, 0, 1}, {(sample[0] - coat_share_) / (1 - coat_share_), sample[1]});
+    const double rest = (sample[0] - coat_share_) / (1 - coat_share_);
+    if (rest < through_share_)
+      in = cosine_direction({0, 0, -1}, {rest / through_share_, sample[1]});
+    else
+      in = cosine_direction({0, 0, 1}, {(rest - through_share_) / (1 - through_share_), sample[1]});
   }
   BsdfSample out;
   out.direction = in.x * s_ + in.y * t_ + in.z * n_;
@@ -168,7 +179,7 @@ BsdfSample Bsdf::sample(const std::array<double, 2>& sample) const {
   if (!(density > 0)) return out;
   out.weight = value(out.direction) / density;
   out.pdf = density;
-  out.cosine_share = in.z / (kPi * density);
+  out.cosine_share = std::max(0.0, in.z) / (kPi * density);
   return out;
 }
 

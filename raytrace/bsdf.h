@@ -1,4 +1,4 @@
-// How bark and soil send light on: a matt body, for bark beneath a rough coat that mirrors.
+// How bark, soil and leaves send light on: a matt body, for bark and leaves beneath a rough coat that mirrors.
 #pragma once
 
 #include "blobtree/geometry.h"
@@ -18,7 +18,8 @@ struct BsdfSample {
 /// At one point, for one direction out. The coat is GGX of index 1.5 (Walter et al. 2007, height-correlated Smith masking); what
 /// it lets through and out again falls on a Lambert body, (1 - E(out)) (1 - E(in)) albedo / (pi (1 - mean E)) (Kelemen and
 /// Szirmay-Kalos 2001), so that a white body gives back all light, and the whole is reciprocal. Light near the terminator of the
-/// real surface is faded where the shading normal leans towards it (Chiang, Li and Burley 2019).
+/// real surface is faded where the shading normal leans towards it (Chiang, Li and Burley 2019). A thin sheet also lets light through
+/// to its other side, matt, in through one coat and out through the other.
 class Bsdf {
  public:
   /// All directions unit, away from the surface; out above it by `normal`. A shading normal that turns away from `out` is bent
@@ -28,10 +29,11 @@ class Bsdf {
     Vec3 albedo;
     double roughness = 0.8;
     bool coated = true;
+    Vec3 through{0.0};   ///< of a sheet: share of light that comes out on the other side; at most 1 with the albedo
   };
   Bsdf(const Surface& surface, const Vec3& out);
 
-  /// Times the cosine to the shading normal. 0 below the real surface or the shading normal's.
+  /// Times the cosine to the shading normal. 0 below the real surface or the shading normal's, but for a sheet's other side.
   Vec3 value(const Vec3& in) const;
   double pdf(const Vec3& in) const;
   BsdfSample sample(const std::array<double, 2>& sample) const;
@@ -46,7 +48,9 @@ class Bsdf {
 
   Vec3 geometric_, n_, s_, t_;
   Vec3 out_;                 ///< local
+  double through_share_ = 0; ///< of the samples that are not the coat's
   Vec3 body_;                ///< albedo over pi, and through the coat towards `out`
+  Vec3 through_{0.0};        ///< likewise
   Vec3 reflectance_;
   double alpha_ = 1;
   double coat_share_ = 0;    ///< of the samples

@@ -15,7 +15,8 @@ struct CameraSample {
   Vec3 position{0.0};      ///< world, metres; zero on a miss
   glm::dvec2 uv{0.0};      ///< the covering primitive's own coordinates: turns round it, metres along it
   double depth = kInfinity;
-  double branch = -1;
+  double branch = -1;      ///< of a leaf, that bears it
+  bool leaf = false;
   double order = -1;       ///< branch order, the trunk is 0; -1 off the tree
   double ridge = 0;        ///< weight of the branch bark ridges
   double occlusion = 0;    ///< share of the cosine-weighted hemisphere above the point that something near hides; 1: all of it

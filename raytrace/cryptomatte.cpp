@@ -40,7 +40,10 @@ float id_from_hash(std::uint32_t hash) {
   return std::bit_cast<float>((hash & 0x807fffffu) | (exponent << 23));
 }
 
-std::string matte_name(std::int32_t branch) { return branch < 0 ? "ground" : "branch_" + std::to_string(branch); }
+std::string matte_name(std::int32_t branch) {
+  if (branch == kLeaves) return "leaves";
+  return branch < 0 ? "ground" : "branch_" + std::to_string(branch);
+}
 
 std::vector<std::string> matte_channels() {
   std::vector<std::string> channels;

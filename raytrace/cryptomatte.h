@@ -20,7 +20,7 @@ std::uint32_t murmur3(std::string_view text);
 /// The hash with its exponent kept from 0 and 255, so that it is neither denormal, infinite nor NaN ("uint32_to_float32").
 float id_from_hash(std::uint32_t hash);
 
-/// "branch_12"; "ground" for -1.
+/// "branch_12"; "ground" for -1, "leaves" for kLeaves.
 std::string matte_name(std::int32_t branch);
 
 constexpr const char* kMatteLayer = "CryptoBranch";

@@ -68,7 +68,9 @@ std::vector<Integer> encoded(const Pixels& pixels) {
 
 Pixels read(const std::filesystem::path& path) {
   const auto fail = [](const std::string& found) { return std::runtime_error(found); };
-  const auto input = OIIO::ImageInput::open(path.string());
+  OIIO::ImageSpec wanted;
+  wanted.attribute("oiio:UnassociatedAlpha", 1);
+  const auto input = OIIO::ImageInput::open(path.string(), &wanted);
   if (!input) {
     OIIO::geterror();
     throw fail("a file that no image reader knows");

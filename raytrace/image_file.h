@@ -21,6 +21,7 @@ struct Pixels {
   bool srgb = false;                 ///< the values are sRGB-encoded (8 and 16 bit files), not linear
 };
 
+/// Colours are straight: not multiplied with an alpha channel, unless the format knows them no other way (EXR).
 /// Errors: InputError naming the file if it is missing, not an image, empty or larger than 2^28 values.
 Pixels read_pixels(const std::filesystem::path& path);
 

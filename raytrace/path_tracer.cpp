@@ -39,8 +39,8 @@ Vec3 bounded(const Vec3& light, double most) {
 }  // namespace
 
 PathTracer::PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground,
-                       double pixel_angle, const PathOptions& options)
-    : tracer_(tracer), bark_(bark), lights_(light), ground_color_(light.ground_color), catcher_(light.catcher),
+                       double pixel_angle, const PathOptions& options, const FoliageTracer* foliage)
+    : tracer_(tracer), foliage_(foliage), bark_(bark), lights_(light), ground_color_(light.ground_color), catcher_(light.catcher),
       transparent_(light.backdrop == Backdrop::kTransparent), ground_(ground), pixel_angle_(pixel_angle),
       options_(checked(options)) {}
 
@@ -48,14 +48,15 @@ PathTracer::Met PathTracer::meet(Walk& walk, const Ray& ray) const {
   ++walk.rays;
   const double to_ground = ground_ ? cambium::meet(*ground_, ray) : kInfinity;
   const auto hit = tracer_.intersect(walk.evaluator, ray);
-  if (hit && hit->t <= to_ground) return {hit->t, hit};
-  return {to_ground, std::nullopt};
+  const Met met = hit && hit->t <= to_ground ? Met{hit->t, hit} : Met{to_ground, std::nullopt};
+  const auto leaf = foliage_ ? foliage_->intersect(ray, met.t) : std::nullopt;
+  return leaf ? Met{leaf->t, std::nullopt, leaf} : met;
 }
 
 bool PathTracer::blocked(Walk& walk, const Ray& ray, double distance) const {
   if (ground_ && cambium::meet(*ground_, ray) < distance) return true;
   ++walk.rays;
-  return tracer_.occluded(walk.evaluator, ray, distance);
+  return (foliage_ && foliage_->occluded(ray, distance)) || tracer_.occluded(walk.evaluator, ray, distance);
 }
 
 /// The tree's surface where it was hit. With `seen`, as the camera sees it, and what it sees is noted there.
@@ -82,9 +83,34 @@ PathTracer::Vertex PathTracer::bark_vertex(Walk& walk, const Ray& ray, const Sur
           options_.relief ? open_share(look) : 1};
 }
 
+/// Either side of a leaf, likewise.
+PathTracer::Vertex PathTracer::leaf_vertex(const Ray& ray, const FoliageHit& hit, double footprint, CameraSample* seen) const {
+  const FoliageLook look = foliage_->look(ray, hit, footprint);
+  if (seen) {
+    seen->normal = look.normal;
+    seen->position = look.position;
+    seen->depth = hit.t;
+    seen->uv = look.uv;
+    seen->branch = look.branch;
+    seen->leaf = true;
+  }
+  const Vec3 off = foliage_->lift() * look.normal;
+  const double through = look.material->translucency;
+  return {look.position + off,
+          Bsdf({look.normal, look.shading_normal, (1 - through) * look.color, look.material->roughness, true, through * look.color},
+               -ray.direction),
+          1, -2.0 * off};
+}
+
 PathTracer::Vertex PathTracer::ground_vertex(const Ray& ray, double t, double footprint) const {
   const Vec3 p{ray.at(t).x, ray.at(t).y, ground_->height}, up{0, 0, 1};
   return {p, Bsdf({up, up, ground_color_ * mottle(p, footprint), 1, false}, -ray.direction)};
+}
+
+/// What a bounce met.
+PathTracer::Vertex PathTracer::vertex(Walk& walk, const Ray& ray, const Met& met, double footprint) const {
+  if (met.leaf) return leaf_vertex(ray, *met.leaf, footprint, nullptr);
+  return met.tree ? bark_vertex(walk, ray, *met.tree, footprint, nullptr) : ground_vertex(ray, met.t, footprint);
 }
 
 /// One shadow ray to each light that has a place: sun, lamps, and an environment by its brightness.
@@ -95,7 +121,7 @@ PathTracer::Lit PathTracer::light_samples(Walk& walk, const Vertex& vertex, int 
     const Vec3 value = vertex.bsdf.value(light.direction);
     if (value == Vec3(0.0)) return;
     const double weight = met_by_rays ? mis_weight(light.pdf, vertex.bsdf.pdf(light.direction)) : 1;
-    Parts& parts = blocked(walk, {vertex.start, light.direction}, light.distance) ? lit.missing : lit.reaching;
+    Parts& parts = blocked(walk, vertex.towards(light.direction), light.distance) ? lit.missing : lit.reaching;
     parts.*part += weight / light.pdf * value * light.radiance;
   };
   if (lights_.sunlit()) add(lights_.sun(walk.pair(Use::kSun, depth)), false, &Parts::sharp);
@@ -123,23 +149,23 @@ Vec3 PathTracer::emitted(const Ray& ray, double pdf, double t) const {
 }
 
 /// Light that comes to the vertex by rays of its own: from the sky, and from other surfaces by up to options.bounces of them.
-Vec3 PathTracer::bounced(Walk& walk, Vertex vertex, double footprint, double& occlusion) const {
+Vec3 PathTracer::bounced(Walk& walk, Vertex at, double footprint, double& occlusion) const {
   Vec3 light(0.0), weight(1.0);
   for (int depth = 0;; ++depth) {
-    const BsdfSample onward = vertex.bsdf.sample(walk.pair(Use::kOnward, depth));
+    const BsdfSample onward = at.bsdf.sample(walk.pair(Use::kOnward, depth));
     if (!(onward.pdf > 0)) break;
-    const Ray ray{vertex.start, onward.direction};
+    const Ray ray = at.towards(onward.direction);
     const bool last = depth == options_.bounces;
     // Only the first needs to know how far it got; of the last, that it was stopped is enough.
     const bool brief = last && depth > 0 && lights_.lamps().empty();
     const Met met = brief ? Met{blocked(walk, ray, kInfinity) ? 0.0 : kInfinity, {}} : meet(walk, ray);
     if (depth == 0 && met.t < options_.occlusion_distance) occlusion = onward.cosine_share;
-    weight *= onward.weight * vertex.open;
+    weight *= onward.weight * at.open;
     light += weight * emitted(ray, onward.pdf, met.t);
     if (last || !(met.t < kInfinity)) break;
     footprint = std::max(footprint, kBounceFootprint * met.t);
-    vertex = met.tree ? bark_vertex(walk, ray, *met.tree, footprint, nullptr) : ground_vertex(ray, met.t, footprint);
-    light += weight * light_samples(walk, vertex, depth + 1).reaching.all();
+    at = vertex(walk, ray, met, footprint);
+    light += weight * light_samples(walk, at, depth + 1).reaching.all();
     if (depth < kSureBounces) continue;
     const double survival = std::min(0.95, std::max({weight.x, weight.y, weight.z}));
     if (!(walk.pair(Use::kRoulette, depth)[0] < survival)) break;
@@ -161,6 +187,11 @@ void PathTracer::shade(Walk& walk, const Vertex& vertex, double footprint, Camer
 void PathTracer::see_tree(Walk& walk, const Ray& ray, const SurfaceHit& hit, CameraSample& out) const {
   const double footprint = hit.t * pixel_angle_;
   shade(walk, bark_vertex(walk, ray, hit, footprint, &out), footprint, out);
+}
+
+void PathTracer::see_leaf(Walk& walk, const Ray& ray, const FoliageHit& hit, CameraSample& out) const {
+  const double footprint = hit.t * pixel_angle_;
+  shade(walk, leaf_vertex(ray, hit, footprint, &out), footprint, out);
 }
 
 void PathTracer::see_ground(Walk& walk, const Ray& ray, double t, CameraSample& out) const {
@@ -209,7 +240,9 @@ CameraSample PathTracer::sample(Evaluator& evaluator, const Ray& ray, const Pixe
   Walk walk{evaluator, sampler, index};
   CameraSample out;
   const Met met = meet(walk, ray);
-  if (met.tree) {
+  if (met.leaf) {
+    see_leaf(walk, ray, *met.leaf, out);
+  } else if (met.tree) {
     see_tree(walk, ray, *met.tree, out);
   } else if (met.t < kInfinity) {
     catcher_ ? see_catcher(walk, ray, met.t, out) : see_ground(walk, ray, met.t, out);

@@ -4,6 +4,7 @@
 #include "raytrace/bark.h"
 #include "raytrace/bsdf.h"
 #include "raytrace/camera_sample.h"
+#include "raytrace/foliage_tracer.h"
 #include "raytrace/ground.h"
 #include "raytrace/lights.h"
 #include "raytrace/path_options.h"
@@ -17,10 +18,10 @@ namespace cambium {
 /// Thread safe; each thread brings its own Evaluator. A pure function of its arguments.
 class PathTracer {
  public:
-  /// The tracer, the bark and an environment must outlive it. pixel_angle: radians. Errors: InputError for options out of range,
+  /// The tracer, the bark, an environment and the foliage (null: none) must outlive it. pixel_angle: radians. Errors: InputError for options out of range,
   /// and those of Lights.
   PathTracer(const Tracer& tracer, const Bark& bark, const Light& light, std::optional<Ground> ground, double pixel_angle,
-             const PathOptions& options = {});
+             const PathOptions& options = {}, const FoliageTracer* foliage = nullptr);
 
   CameraSample sample(Evaluator& evaluator, const Ray& ray, const PixelSampler& sampler, std::uint32_t index) const;
 
@@ -41,10 +42,16 @@ class PathTracer {
     Vec3 start;         ///< of rays that leave: just off the surface
     Bsdf bsdf;
     double open = 1;    ///< share of the light around that the bark's own relief lets in
+    Vec3 to_back{0.0};  ///< of a leaf: from there to just off its other side, where rays start that leave on that
+
+    Ray towards(const Vec3& direction) const {
+      return {glm::dot(to_back, direction) > 0 ? start + to_back : start, direction};
+    }
   };
   struct Met {
     double t = kInfinity;
-    std::optional<SurfaceHit> tree;   ///< none: the ground, or nothing where t is infinite
+    std::optional<SurfaceHit> tree;   ///< none of this and the next: the ground, or nothing where t is infinite
+    std::optional<FoliageHit> leaf = std::nullopt;
   };
   /// Light that a vertex sends on.
   struct Parts {
@@ -59,7 +66,9 @@ class PathTracer {
   bool blocked(Walk& walk, const Ray& ray, double distance) const;
 
   Vertex bark_vertex(Walk& walk, const Ray& ray, const SurfaceHit& hit, double footprint, CameraSample* seen) const;
+  Vertex leaf_vertex(const Ray& ray, const FoliageHit& hit, double footprint, CameraSample* seen) const;
   Vertex ground_vertex(const Ray& ray, double t, double footprint) const;
+  Vertex vertex(Walk& walk, const Ray& ray, const Met& met, double footprint) const;
 
   Lit light_samples(Walk& walk, const Vertex& vertex, int depth) const;
   Vec3 emitted(const Ray& ray, double pdf, double t) const;
@@ -67,10 +76,12 @@ class PathTracer {
   void shade(Walk& walk, const Vertex& vertex, double footprint, CameraSample& out) const;
 
   void see_tree(Walk& walk, const Ray& ray, const SurfaceHit& hit, CameraSample& out) const;
+  void see_leaf(Walk& walk, const Ray& ray, const FoliageHit& hit, CameraSample& out) const;
   void see_ground(Walk& walk, const Ray& ray, double t, CameraSample& out) const;
   void see_catcher(Walk& walk, const Ray& ray, double t, CameraSample& out) const;
 
   const Tracer& tracer_;
+  const FoliageTracer* foliage_;
   const Bark& bark_;
   Lights lights_;
   Vec3 ground_color_;

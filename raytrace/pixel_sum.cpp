@@ -31,7 +31,7 @@ void FirstHitSum::add(const CameraSample& sample) {
   if (!(sample.depth < kInfinity)) return;
   ridge += static_cast<float>(sample.ridge);
   occlusion += static_cast<float>(sample.occlusion);
-  const auto id = static_cast<std::int32_t>(sample.branch);
+  const auto id = sample.leaf ? kLeaves : static_cast<std::int32_t>(sample.branch);
   for (BranchShare& share : shares) {
     if (share.samples > 0 && share.branch != id) continue;
     share.branch = id;

@@ -34,9 +34,11 @@ struct PixelSum {
   float error() const { return samples ? spread() / std::sqrt(float(samples)) : 0; }
 };
 
+constexpr std::int32_t kLeaves = -2;
+
 /// Samples of a pixel by the branch that they hit.
 struct BranchShare {
-  std::int32_t branch = 0;          ///< -1: the ground
+  std::int32_t branch = 0;          ///< -1: the ground; kLeaves: any leaf
   std::uint16_t samples = 0;        ///< 0: unused
 };
 

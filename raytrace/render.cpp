@@ -107,14 +107,19 @@ auto with_threads(const RunOptions& run, const Work& work) {
 }  // namespace
 
 struct Renderer::Scene {
-  Scene(const Field& of, SurfaceCover cover) : field(of), boxes(surface_boxes(cover)), tracer(std::move(cover)) {
+  Scene(const Field& of, SurfaceCover cover, FoliageScene leaves) : field(of), boxes(surface_boxes(cover)), tracer(std::move(cover)) {
     for (const Box& box : boxes) bounds.extend(box);
+    if (leaves.instances.empty()) return;
+    foliage = std::make_unique<const FoliageTracer>(std::move(leaves));
+    for (const Box& box : foliage->boxes())
+      if (!box.empty()) boxes.push_back(box);
   }
 
   const Field& field;
-  std::vector<Box> boxes;   ///< that hold the surface
-  Box bounds;
+  std::vector<Box> boxes;   ///< that hold the surface, and a leaf each
+  Box bounds;               ///< of the surface
   Tracer tracer;
+  std::unique_ptr<const FoliageTracer> foliage;   ///< null: none
   double seconds = 0;
 
   std::optional<Ground> ground(const Light& light) const {
@@ -141,13 +146,13 @@ Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-std::optional<Renderer> Renderer::make(const Field& field, const RunOptions& run) {
+std::optional<Renderer> Renderer::make(const Field& field, const RunOptions& run, FoliageScene foliage) {
   if (run.cancelled()) return std::nullopt;
   return with_threads(run, [&]() -> std::optional<Renderer> {
     Stopwatch watch;
     auto cover = cover_surface(field, tracing_cells(), run);
     if (!cover) return std::nullopt;
-    auto scene = std::make_unique<Scene>(field, std::move(*cover));
+    auto scene = std::make_unique<Scene>(field, std::move(*cover), std::move(foliage));
     scene->seconds = watch.lap();
     return Renderer(std::move(scene));
   });
@@ -161,7 +166,8 @@ std::optional<Rendered> Renderer::render(const RenderOptions& options, const Run
     const View view = scene_->view(options, ground);
     if (ground) ground->fade = scene_->fade(view);
     const Bark bark(options.bark, options.seed);
-    const PathTracer path_tracer(scene_->tracer, bark, options.light, ground, view.pixel_angle(), options.paths);
+    const PathTracer path_tracer(scene_->tracer, bark, options.light, ground, view.pixel_angle(), options.paths,
+                                 scene_->foliage.get());
 
     const PixelRect whole{0, 0, options.width, options.height};
     const PixelRect crop = options.crop.value_or(whole);

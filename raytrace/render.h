@@ -6,6 +6,7 @@
 #include "raytrace/bark.h"
 #include "raytrace/camera.h"
 #include "raytrace/film.h"
+#include "raytrace/foliage_scene.h"
 #include "raytrace/light.h"
 #include "raytrace/path_options.h"
 #include "raytrace/sampling.h"
@@ -46,11 +47,11 @@ struct Rendered {
 /// Called after each finished pass with the samples that pixels have by then, at most.
 using PassFinished = std::function<void(int samples)>;
 
-/// A field made ready for any number of pictures. Thread safe once made.
+/// A field, and the leaves beside it, made ready for any number of pictures. Thread safe once made.
 class Renderer {
  public:
   /// nullopt if cancelled. The field must outlive it. Cost: covering the surface, and Embree's hierarchy over it.
-  static std::optional<Renderer> make(const Field& field, const RunOptions& run);
+  static std::optional<Renderer> make(const Field& field, const RunOptions& run, FoliageScene foliage = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
