@@ -80,6 +80,48 @@ TEST(Bsdf, IsReciprocal) {
   }
 }
 
+Bsdf sheet(double reflected, double through, double roughness, double angle_out, bool coated = true) {
+  return Bsdf({kUp, kUp, Vec3(reflected), roughness, coated, Vec3(through)}, tilted(angle_out, 0.7));
+}
+
+TEST(Bsdf, AWhiteSheetSendsAllLightOnAndItsPartsToItsSides) {
+  for (double angle : {0.0, 0.7, 1.3}) {
+    const Bsdf white = sheet(0.6, 0.4, 0.6, angle), matt = sheet(0.6, 0.4, 1, angle, false);
+    EXPECT_NEAR(over_sphere([&](const Vec3& in) { return white.value(in).r; }), 1, 0.012) << angle;
+    EXPECT_NEAR(white.reflectance().r, 1, 1e-12);
+    EXPECT_NEAR(over_sphere([&](const Vec3& in) { return in.z < 0 ? matt.value(in).r : 0; }), 0.4, 1e-3);
+    EXPECT_NEAR(over_sphere([&](const Vec3& in) { return in.z > 0 ? matt.value(in).r : 0; }), 0.6, 1e-3);
+  }
+}
+
+TEST(Bsdf, ASheetIsReciprocalThroughItself) {
+  for (int i = 0; i < 200; ++i) {
+    const auto number = [i](int k) { return unit_of(hash_of(9, i, k)); };
+    const Vec3 above = tilted(1.5 * number(0), 6 * number(1)), below = -tilted(1.5 * number(2), 6 * number(3));
+    const double roughness = 0.2 + 0.8 * number(4);
+    const Vec3 there = Bsdf({kUp, kUp, Vec3(0.4), roughness, true, Vec3(0.3)}, above).value(below) / -below.z;
+    const Vec3 back = Bsdf({-kUp, -kUp, Vec3(0.4), roughness, true, Vec3(0.3)}, below).value(above) / above.z;
+    EXPECT_NEAR(there.r, back.r, 1e-12);
+    EXPECT_GT(there.r, 0);
+  }
+}
+
+TEST(Bsdf, SamplesOfASheetWeighWhatItSendsOnToBothSides) {
+  const Bsdf bsdf = sheet(0.3, 0.5, 0.7, 0.6);
+  EXPECT_NEAR(over_sphere([&](const Vec3& in) { return bsdf.pdf(in); }), 1, 0.05);
+  double above = 0, below = 0;
+  constexpr int kSide = 200;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const BsdfSample s = bsdf.sample({(i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide});
+    if (!(s.pdf > 0)) continue;
+    EXPECT_NEAR(s.pdf, bsdf.pdf(s.direction), 1e-9 * s.pdf);
+    (s.direction.z > 0 ? above : below) += s.weight.r / (kSide * kSide);
+    if (s.direction.z < 0) EXPECT_EQ(s.cosine_share, 0);
+  }
+  EXPECT_NEAR(above, over_sphere([&](const Vec3& in) { return in.z > 0 ? bsdf.value(in).r : 0; }), 0.01);
+  EXPECT_NEAR(below, over_sphere([&](const Vec3& in) { return in.z < 0 ? bsdf.value(in).r : 0; }), 0.01);
+}
+
 TEST(Bsdf, SamplesFallAsThePdfSays) {
   // In cells of cosine and azimuth, counts against the integrated density.
   constexpr int kUps = 6, kRound = 8, kSide = 400, kFine = 60;
