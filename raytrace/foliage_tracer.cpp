@@ -206,6 +206,7 @@ std::optional<FoliageHit> FoliageTracer::intersect(const Ray& ray, double t_end)
   RTCRayHit rayhit;
   const auto entry = embree_ ? embree_->prepare(ray, t_end, rayhit.ray) : std::nullopt;
   if (!entry) return std::nullopt;
+  rayhit.ray.tfar += static_cast<float>(embree_->pad);   // what is found is held against t_end in double
   Query query;
   rayhit.hit.geomID = rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if CAMBIUM_EMBREE_MAJOR >= 4

@@ -116,7 +116,9 @@ TEST(Bsdf, SamplesOfASheetWeighWhatItSendsOnToBothSides) {
     if (!(s.pdf > 0)) continue;
     EXPECT_NEAR(s.pdf, bsdf.pdf(s.direction), 1e-9 * s.pdf);
     (s.direction.z > 0 ? above : below) += s.weight.r / (kSide * kSide);
-    if (s.direction.z < 0) EXPECT_EQ(s.cosine_share, 0);
+    if (s.direction.z < 0) {
+      EXPECT_EQ(s.cosine_share, 0);
+    }
   }
   EXPECT_NEAR(above, over_sphere([&](const Vec3& in) { return in.z > 0 ? bsdf.value(in).r : 0; }), 0.01);
   EXPECT_NEAR(below, over_sphere([&](const Vec3& in) { return in.z < 0 ? bsdf.value(in).r : 0; }), 0.01);
