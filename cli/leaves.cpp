@@ -94,11 +94,12 @@ Leaves dress_leaves(const Recipe& recipe, const Foliage& foliage, std::span<cons
   for (std::size_t i = 0; i < foliage.organs.size(); ++i) {
     const OrganPlacement& organ = foliage.organs[i];
     const LeafRecipe& rule = rules[rule_of[organ.shape]];
-    const double scale = organ.scale * rule.scale;
+    const OrganShape& shape = foliage.shapes[organ.shape];
+    // An outline's scale is its size in metres, which a card has of its own.
+    const double scale = rule.scale * (rule.card && is_outline(shape.name) ? 1 : organ.scale);
     if (!(scale > 0) || !std::isfinite(scale) || !finite(organ.position)) continue;
     scene.instances.push_back({organ.shape, organ.position, scale * Mat3(organ.left, organ.heading, organ.up),
                                static_cast<std::int32_t>(organ_branches[i])});
-    const OrganShape& shape = foliage.shapes[organ.shape];
     if (shape.triangles.empty() && !rule.mesh && !rule.card) ++leaves.shapeless[shape.name];
   }
   return leaves;

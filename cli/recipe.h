@@ -46,8 +46,11 @@ struct BarkRecipe {
 /// [[leaf]]: what organs of a name look like.
 struct LeafRecipe {
   std::string name = "*";                  ///< "*": all; "polygon": all that the L-system drew between { and }
-  std::optional<NamedFile> mesh;           ///< an .obj; x to the left, y along the leaf from where it is held, z out of its face
-  std::optional<std::array<double, 2>> card;  ///< width and length, metres; neither this nor a mesh: as the organ itself is drawn
+  /// An .obj: x to the left, y along the leaf from where it is held, z out of its face; one unit is as long as an outline reaches, or
+  /// a metre times the scale of a ~name.
+  std::optional<NamedFile> mesh;
+  /// Width and length, metres, times the scale of a ~name. Neither this nor a mesh: as the organ itself is drawn.
+  std::optional<std::array<double, 2>> card;
   double scale = 1;
   std::optional<Vec3> color;               ///< linear; unset: white with a texture, else leaf green
   std::optional<NamedFile> texture;
@@ -55,6 +58,9 @@ struct LeafRecipe {
 
   bool matches(std::string_view organ) const;
 };
+
+/// Whether an organ of that name was drawn between { and }: "polygon1", "polygon2" and so on.
+bool is_outline(std::string_view organ);
 
 /// A branch that a recipe names by its number.
 struct NamedBranch {

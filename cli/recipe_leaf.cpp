@@ -36,17 +36,16 @@ const KeyRule<LeafRecipe> kLeafKeys[] = {
     {"roughness", [](const RecipeValue& v, LeafRecipe& l) { l.roughness = v.number(0.05, 1); }},
 };
 
-/// "polygon1", "polygon2" and so on.
-bool is_polygon(std::string_view organ) {
+}  // namespace
+
+bool is_outline(std::string_view organ) {
   constexpr std::string_view kDrawn = "polygon";
   return organ.starts_with(kDrawn) && organ.size() > kDrawn.size() &&
          std::all_of(organ.begin() + kDrawn.size(), organ.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-}  // namespace
-
 bool LeafRecipe::matches(std::string_view organ) const {
-  return name == "*" || name == organ || (name == "polygon" && is_polygon(organ));
+  return name == "*" || name == organ || (name == "polygon" && is_outline(organ));
 }
 
 std::vector<LeafRecipe> read_leaves(const RecipeValue& array) {

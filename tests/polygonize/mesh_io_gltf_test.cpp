@@ -1,5 +1,6 @@
 #include "blobtree/input_error.h"
 #include "creased_meshes.h"
+#include "leaf_parts.h"
 #include "polygonize/vertex_split.h"
 #include "small_tree.h"
 #include "written_file.h"
@@ -189,6 +190,39 @@ TEST(MeshIoGltf, CreasesSplitNormals) {
     const glm::vec3 n = glm::normalize(glm::cross(position[indices[i + 1]] - position[indices[i]], position[indices[i + 2]] - position[indices[i]]));
     for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(glm::distance(normal[indices[i + c]], n), 1e-5f);
   }
+}
+
+TEST(MeshIoGltf, LeavesAreAMeshOfTheirOwnSeenFromBothSidesAndCutOut) {
+  const Mesh cube = creased_cube();
+  const std::vector<MeshLeaves> leaves = leaf_parts(kPng);
+  const GlbFile glb(written(MeshFile{{{&cube, nullptr, 0}}, {}, leaves}, ".glb"));
+  ASSERT_EQ(glb.model.meshes.size(), 2u);
+  EXPECT_EQ(glb.model.meshes[1].name, "leaves");
+  EXPECT_EQ(glb.model.scenes[0].nodes, (std::vector<int>{0, 1}));
+  EXPECT_EQ(glb.model.nodes[1].mesh, 1);
+  ASSERT_EQ(glb.model.meshes[1].primitives.size(), 2u);
+  ASSERT_EQ(glb.model.materials.size(), 3u);
+  const auto &bark = glb.model.materials[0], &cut = glb.model.materials[1], &plain = glb.model.materials[2];
+  EXPECT_FALSE(bark.doubleSided);
+  EXPECT_TRUE(cut.doubleSided);
+  EXPECT_TRUE(plain.doubleSided);
+  EXPECT_EQ(cut.alphaMode, "MASK");
+  EXPECT_EQ(plain.alphaMode, "OPAQUE");
+  EXPECT_EQ(glb.primitive(1, 0).material, 1);
+  EXPECT_EQ(glb.primitive(1, 1).material, 2);
+  const auto position = glb.attribute<glm::vec3>("POSITION", 1), pivot = glb.attribute<glm::vec3>("_PIVOT", 1);
+  EXPECT_EQ(position[3], glm::vec3(0, 4, 0));
+  EXPECT_EQ(position[2], glm::vec3(0, 1, -2));
+  EXPECT_EQ(pivot[0], glm::vec3(0, 1, 0));
+  EXPECT_EQ(glb.attribute<glm::vec2>("TEXCOORD_0", 1)[2], glm::vec2(0, 0)) << "the image's top is the leaf's tip";
+  EXPECT_EQ(glb.attribute<float>("_BRANCH", 1), (std::vector<float>{5, 5, 5, 6}));
+  EXPECT_EQ(glb.read<std::uint32_t>(glb.primitive(1, 0).indices), (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 3}));
+  EXPECT_EQ(glb.read<std::uint32_t>(glb.primitive(1, 1).indices).size(), 3u);
+}
+
+TEST(MeshIoGltf, AFileWithoutLeavesIsAsItWas) {
+  const Mesh cube = creased_cube();
+  EXPECT_EQ(written(MeshFile{{{&cube, nullptr, 0}}, {}, {}}, ".glb"), written(cube, ".glb"));
 }
 
 TEST(MeshIoGltf, PicturesOfOtherKindsAndSeveralLevelsInOtherFormatsAreInputErrors) {

@@ -1,4 +1,5 @@
 #include "creased_meshes.h"
+#include "leaf_parts.h"
 #include "small_tree.h"
 #include "written_file.h"
 
@@ -80,6 +81,25 @@ TEST(MeshIoObj, CreasesSplitNormalsAndSmoothingGroups) {
     const Vec3 n = glm::normalize(glm::cross(obj.positions[face[1].position - 1] - o, obj.positions[face[2].position - 1] - o));
     for (const Corner& corner : face) EXPECT_LT(glm::distance(obj.normals[corner.normal - 1], n), 1e-6);
   }
+}
+
+TEST(MeshIoObj, LeavesAreAnObjectBehindTheWood) {
+  const Mesh cube = creased_cube();
+  const std::vector<MeshLeaves> leaves = leaf_parts("");
+  const std::string text = written(MeshFile{{{&cube, nullptr, 0}}, {}, std::span(leaves).subspan(1)}, ".obj");
+  const ObjFile obj(text);
+  ASSERT_EQ(obj.faces.size(), 12u + 1);
+  EXPECT_EQ(obj.positions.size(), cube.positions.size() + 4);
+  const auto& leaf = obj.faces.back();
+  EXPECT_EQ(obj.positions[leaf[2].position - 1], Vec3(0, 2, 1));
+  EXPECT_EQ(obj.uvs[leaf[2].uv - 1], glm::dvec2(0, 1));
+  EXPECT_LT(glm::distance(obj.normals[leaf[2].normal - 1], Vec3(0, 0, 1)), 1e-6);
+  EXPECT_EQ(obj.groups.back(), "off");
+  const std::size_t wood = text.find("o wood\n"), object = text.find("o leaves\n"), material = text.find("usemtl leaf_of_birch\n");
+  EXPECT_LT(wood, object);
+  EXPECT_LT(object, material);
+  EXPECT_NE(material, std::string::npos);
+  EXPECT_EQ(written(cube, ".obj").find("o wood"), std::string::npos);
 }
 
 TEST(MeshIoObj, YUpTurnsPositionsAndNormals) {
