@@ -40,7 +40,7 @@ std::optional<Plant> read_or_grow(Job& job) {
     const StageTimer timer(job.figures, "read");
     return read_plant(job.source);
   }
-  const LSystem system = LSystem::load(job.source, job.recipe.skeleton.label);
+  const LSystem system = load_lsystem(job);
   const auto string = derive_string(job, system);
   if (!string || job.run.cancelled()) return std::nullopt;
   return walk_turtle(job, *string, system);
