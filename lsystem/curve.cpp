@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lsystem/preprocessor.h"
+#include "lsystem/view_file.h"
 
 namespace cambium {
 namespace {
@@ -120,41 +121,9 @@ Curve read_versioned(Lines& lines) {
   return Curve(std::move(name), std::move(points), samples);
 }
 
-std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder, std::string_view extension) {
-  std::vector<std::filesystem::path> out;
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->path().extension() == extension) out.push_back(entry->path());
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 void append_curves(const std::filesystem::path& file, const SourceLocation& wanted_from, std::vector<Curve>& out) {
   const std::string text = read_source(file, wanted_from);
   for (Curve& curve : read_curves(text, file)) out.push_back(std::move(curve));
-}
-
-std::optional<std::filesystem::path> view_file_of(const std::filesystem::path& model) {
-  std::filesystem::path same = model;
-  same.replace_extension(".v");
-  std::error_code error;
-  if (std::filesystem::is_regular_file(same, error)) return same;
-  const auto views = files_with(model.parent_path().empty() ? "." : model.parent_path(), ".v");
-  if (views.size() == 1) return views[0];
-  return std::nullopt;
-}
-
-// A view file is a list of settings of the drawing; only the lines that name functions are read.
-void append_curves_of_view(const std::filesystem::path& view, std::vector<Curve>& out) {
-  const std::string text = read_source(view, {view.string(), 0, 0});
-  for (Lines lines(text, view.string()); !lines.at_end(); lines.advance()) {
-    auto named = lines.value("function:");
-    if (!named) named = lines.value("function set:");
-    if (!named) named = lines.value("functionset:");
-    if (!named) continue;
-    named->resize(std::min(named->find_first_of(" \t"), named->size()));
-    append_curves(view.parent_path() / *named, {view.string(), 0, 0}, out);
-  }
 }
 
 }  // namespace
@@ -225,7 +194,9 @@ std::vector<Curve> read_curves(std::string_view text, const std::filesystem::pat
 
 std::vector<Curve> curves_beside(const std::filesystem::path& model) {
   std::vector<Curve> out;
-  if (const auto view = view_file_of(model)) append_curves_of_view(*view, out);
+  if (const auto view = view_file_of(model))
+    for (const ViewFile::Function& function : read_view_file(read_source(*view, {view->string(), 0, 0}), *view).functions)
+      append_curves(function.file, function.place, out);
   if (!out.empty()) return out;
   const std::filesystem::path folder = model.parent_path().empty() ? "." : model.parent_path();
   for (const char* extension : {".fset", ".func"}) {

@@ -59,7 +59,8 @@ DialectTurtle::DialectTurtle(const LSystemProgram& program, const TurtleOptions&
     : houdini_(program.dialect == Dialect::kHoudini),
       values_(program.houdini),
       seed_(seed),
-      state_{options.step, options.angle != 0 ? options.angle * 180 / std::numbers::pi : kLpyAngle, options.width} {
+      state_{options.step, options.angle ? *options.angle * 180 / std::numbers::pi : kLpyAngle,
+             options.width.value_or(TurtleOptions::kWidth)} {
   if (houdini_) state_ = {values_.step, values_.angle, values_.thickness};
   for (const std::string& name : names) {
     commands_.push_back(houdini_ ? houdini_command(name) : lpy_command(name));

@@ -84,8 +84,16 @@ FoliageCollector::Outcome FoliageCollector::add_outline(const Site& site, const 
 FoliageCollector::Outcome FoliageCollector::add_surface(const Site& site, const std::string& name, const Vec3& stretch) {
   const double scale = largest(stretch);
   if (!(scale > 0)) return Outcome::kNothing;
-  const auto [found, is_new] = shapes_.try_emplace(Key{name, {}}, kNoShape);
-  if (is_new) found->second = numbered({name, {}, {}});
+  const auto known = surfaces_.find(name);
+  const Vec3 shares = known == surfaces_.end() ? Vec3(1.0) : stretch / scale;  // of the scale
+  Key key{name, {}};
+  if (shares != Vec3(1.0)) append_rounded(shares, key.numbers);
+  const auto [found, is_new] = shapes_.try_emplace(std::move(key), kNoShape);
+  if (is_new) {
+    OrganShape shape = known == surfaces_.end() ? OrganShape{name, {}, {}} : known->second.shape;
+    for (Vec3& vertex : shape.vertices) vertex *= shares;
+    found->second = numbered(std::move(shape));
+  }
   return place(site, found->second, scale);
 }
 

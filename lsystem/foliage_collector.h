@@ -2,18 +2,25 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "blobtree/run_options.h"
+#include "lsystem/patch_surface.h"
 #include "skeletons/foliage.h"
 
 namespace cambium {
 
 class FoliageCollector {
  public:
+  using Surfaces = std::map<std::string, PatchSurface>;
+
+  /// `surfaces`: those whose shapes are known; outlives the collector.
+  explicit FoliageCollector(const Surfaces& surfaces) : surfaces_(surfaces) {}
+
   /// Where an organ is: all of a placement but its shape and scale.
   using Site = OrganPlacement;
   enum class Outcome { kAdded, kNothing, kCancelled };
@@ -44,6 +51,7 @@ class FoliageCollector {
   Outcome add_round(const Site& site, OrganShape (*make)(), const char* name, double diameter);
   Outcome place(const Site& site, std::uint32_t shape, double scale);
 
+  const Surfaces& surfaces_;
   Foliage foliage_;
   std::unordered_map<Key, std::uint32_t, KeyHash> shapes_;  // kNoShape: of outlines without an area
   std::uint32_t outlines_ = 0;

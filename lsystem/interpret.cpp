@@ -17,10 +17,10 @@ std::optional<Turtled> draw(const ModuleString& string, const LSystem& system, c
                             const RunOptions& run, TurtleAnswers* answers) {
   const LSystemProgram& program = system.program();
   const std::string file = file_of(system);
-  if (is_its_drawn_form(program)) return TurtleWalk(string, file, options, run, answers).walk();
+  if (is_its_drawn_form(program)) return TurtleWalk(string, file, program.view, options, run, answers).walk();
   const auto drawn = drawn_form(string, program, options, run);
   if (!drawn) return std::nullopt;
-  return TurtleWalk(*drawn, file, options, run, answers).walk();
+  return TurtleWalk(*drawn, file, program.view, options, run, answers).walk();
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ bool answer_queries(ModuleString& string, const LSystem& system, const TurtleOpt
 std::optional<Turtled> interpret(const GrownString& grown, const LSystem& system, const TurtleOptions& options,
                                  const RunOptions& run) {
   const std::string file = file_of(system);
-  TurtleWalk walk(grown.string, file, options, run, nullptr);
+  TurtleWalk walk(grown.string, file, system.program().view, options, run, nullptr);
   walk.grow(grown.parts);
   return walk.walk();
 }

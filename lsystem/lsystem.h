@@ -25,7 +25,7 @@ struct LSystemProgram;  // private to lsystem/
 class LSystem {
  public:
   /// `label` chooses among several in one file; unset: the first. `#include` is read relative to `file`, and so are the curves
-  /// of a model that calls func(): see curve.h.
+  /// of a model that calls func() (see curve.h) and its view file (see view.h).
   /// Errors: InputError with line and column (in bytes, of the file before preprocessing).
   static LSystem parse(std::string_view text, const std::filesystem::path& file,
                        const std::optional<std::string>& label = std::nullopt, Dialect dialect = Dialect::kCpfg);
@@ -38,14 +38,17 @@ class LSystem {
   std::shared_ptr<const LSystemProgram> program_;
 };
 
+/// What is unset is the view file's, if there is one beside the model: see view_file.h.
 struct TurtleOptions {
+  static constexpr double kWidth = 0.1;
+
   double step = 1;                         ///< metres of an F without parameter
-  double angle = 0;                        ///< radians of + - & ^ \ / without parameter; 0: 90 degrees
-  double width = 0.1;                      ///< diameter before the first ! or #, in width units
+  std::optional<double> angle;             ///< radians of + - & ^ \ / without parameter. Default: 90 degrees
+  std::optional<double> width;             ///< diameter before the first ! or #, in width units. Default: kWidth
   double width_unit = 1;                   ///< metres; ABOP's figures give widths in pixels beside lengths in metres, say
-  double width_factor = 0.70710678118654752;  ///< of a `!` without parameter; `#` divides by it. Default: halves the area
-  Vec3 tropism{0, 0, -1};
-  double elasticity = 0;
+  std::optional<double> width_factor;      ///< of a `!` without parameter; `#` divides by it. Default: halves the area
+  std::optional<Vec3> tropism;             ///< its length is its intensity. Default: down
+  std::optional<double> elasticity;        ///< default: 0
   std::size_t max_modules = 100'000'000;   ///< of the string that the homomorphism makes
 };
 
@@ -122,7 +125,7 @@ struct Turtled {
   Foliage foliage;                         ///< outlines, named surfaces, spheres and discs
   double total_length = 0;                 ///< of all internodes, metres
   double last_width = 0;                   ///< the last width set
-  std::map<std::string, std::size_t> skipped;  ///< symbols without meaning here, with their counts
+  std::map<std::string, std::size_t> skipped;  ///< symbols without meaning here, and of the view file what was not read; with counts
   std::size_t radii_clamped = 0;           ///< radii that rose towards the tip
 };
 
@@ -136,12 +139,14 @@ struct Turtled {
 /// nothing else is drawn; { } inside are outlines of their own. An outline is an organ in the frame of the turtle at its {, held
 /// where the turtle stood; equal ones, also of different sizes, share a shape. One without an area is left out (counted as "}"),
 /// as is one that is not closed (as "{"). ~x(s) and ~x(sx,sy,sz) place the surface x; @O(d) a sphere, @o(d) and @c(d) discs, of
-/// the line's width if without parameter. `;` and `'` raise the colour or set it, `,` lowers it, round after 255; it begins as 0.
+/// the line's width if without parameter. Behind a surface the turtle goes on at its end point. `;` and `'` raise the colour or set
+/// it, `,` lowers it, round after 255; it begins as 0 or the view file's.
 ///
 /// @Gs, @Gc and @Ge, and { with a parameter of 1 to 4, draw internodes along a smooth curve: see generalized_cylinder.h. F and G
-/// between them only move.
+/// between them only move. @#(n) chooses the view file's contour n: see contour_file.h.
 ///
-/// @M(x,y,z) places, @R(hx,hy,hz[,ux,uy,uz]) orients; @Ts(e) and @T(e) set the elasticity, @Td(x,y,z) the tropism.
+/// @M(x,y,z) places, @R(hx,hy,hz[,ux,uy,uz]) orients; @Ts(i,e), @Ts(e) and @T(e) set the elasticity, @Ti(i,e) raises it, @Td(i,e)
+/// lowers it, both without e by the view file's increment; @Td(x,y,z) sets the tropism.
 /// Looks at run.cancel every few milliseconds; only the homomorphism uses more than one thread. nullopt if cancelled.
 /// Errors: InputError (place: the file) for a negative length, a width of 0 or less, a position that is not finite, more nodes
 /// than int32 counts, or an error of the homomorphism.

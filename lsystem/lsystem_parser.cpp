@@ -312,6 +312,7 @@ LSystem LSystem::parse(std::string_view text, const std::filesystem::path& file,
   auto program = Parser(source, file).read();
   program->dialect = dialect;
   program->houdini = houdini;
+  if (dialect == Dialect::kCpfg) program->view = view_beside(file, program->symbols.names());
   if (label) {
     const auto named =
         std::find_if(program->systems.begin(), program->systems.end(), [&](const System& s) { return s.label == *label; });

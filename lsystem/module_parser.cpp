@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxParameters = 1000;
 constexpr std::string_view kSymbolMarks = "+-&^\\/|$[]{}.!#;,'%_=?";
+constexpr std::string_view kMarksAfterAt = "#!;,";
 
 bool symbol_at(const Cursor& cursor) {
   if (cursor.at_marked_name()) return true;
@@ -51,10 +52,12 @@ std::optional<std::string> ModuleParser::symbol() {
   std::string name(1, cursor_.peek());
   cursor_.advance();
   if (name == "@" || name == "~" || (name == "?" && starts_word(cursor_.peek()))) {
-    if (!in_word(cursor_.peek())) cursor_.fail_at(at, "'" + name + "' alone", "a letter after it");
+    const bool mark = name == "@" && kMarksAfterAt.find(cursor_.peek()) != std::string_view::npos && !cursor_.at_end();
+    if (!in_word(cursor_.peek()) && !mark) cursor_.fail_at(at, "'" + name + "' alone", "a letter after it");
     name += cursor_.peek();
     cursor_.advance();
-    static constexpr std::string_view kSecond[] = {"@Gs", "@Gc", "@Ge", "@Gr", "@Gt", "@Ts", "@Td", "@Ti", "@Tp", "@Tf"};
+    static constexpr std::string_view kSecond[] = {"@Gs", "@Gc", "@Ge", "@Gr", "@Gt", "@Ts", "@Td", "@Ti", "@Tp", "@Tf",
+                                                   "@Tx", "@Di", "@Dd", "@mo", "@mc", "@bo", "@bc", "@PS", "@PC", "@PD"};
     if (std::find(std::begin(kSecond), std::end(kSecond), name + cursor_.peek()) != std::end(kSecond)) {
       name += cursor_.peek();
       cursor_.advance();

@@ -18,7 +18,7 @@ class ModuleParser {
   ModuleParser(Cursor& cursor, LSystemProgram& program, Scope& globals)
       : cursor_(cursor), program_(program), globals_(globals) {}
 
-  /// The symbol at the head: one character, or `@X`, `@Gs`, `@Td`, `?P`, `~x`, or a marked name. nullopt where none can stand.
+  /// The symbol at the head: one character, or `@X`, `@#`, `@Gs`, `@Td`, `?P`, `~x`, or a marked name. nullopt where none can stand.
   std::optional<std::string> symbol();
   Successor successor(Scope& scope);
   Production production();

@@ -10,6 +10,7 @@
 
 #include "lsystem/bytecode.h"
 #include "lsystem/dialect.h"
+#include "lsystem/view.h"
 
 namespace cambium {
 
@@ -94,6 +95,7 @@ struct LSystemProgram {
   std::size_t main_index = 0;
   Dialect dialect = Dialect::kCpfg;            ///< whose turtle the symbols are for
   HoudiniValues houdini;
+  View view;
 
   const System& main() const { return systems[main_index]; }
   /// The one whose label is this whole number; nullptr if there is none.

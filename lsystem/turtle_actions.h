@@ -11,11 +11,11 @@ enum class TurtleAction {
   kDrawBetween, kMoveBetween,  ///< G, g: the same without a corner
   kPlace, kOrient,
   kYawLeft, kYawRight, kPitchDown, kPitchUp, kRollLeft, kRollRight, kTurnBack, kLevel,
-  kElasticity, kTropism,
+  kElasticity, kStiffer, kTropismOrSofter,
   kThinner, kThicker, kNextColor, kLastColor,
   kOpen, kClose, kCut, kCall,
   kBraceOpen, kBraceClose, kCorner, kSurface, kSphere, kDisc,
-  kAxisStart, kAxisPoint, kAxisEnd, kAxisTangents,
+  kAxisStart, kAxisPoint, kAxisEnd, kAxisTangents, kContour,
   kAskPosition, kAskHeading, kAskUp, kAskLeft
 };
 

@@ -1,18 +1,24 @@
 #include "lsystem/turtle_walk.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace cambium {
 namespace {
 
-constexpr double kRadian = std::numbers::pi / 180.0;
 constexpr int kTurnsBetweenRepairs = 64;
 constexpr std::size_t kLooksBetweenPolls = 1024;
 constexpr std::uint32_t kColors = 256;  // in cpfg's colour map
+constexpr double kWidthFactor = 0.70710678118654752;  // halves the area
+constexpr double kLeastWidth = 1e-7;                  // cpfg's, of ! without a parameter
+
+template <class T>
+T first_of(const std::optional<T>& first, const std::optional<T>& second, const T& otherwise) {
+  return first ? *first : second.value_or(otherwise);
+}
 
 std::string number_text(double value) {
   char text[32];
@@ -22,15 +28,23 @@ std::string number_text(double value) {
 
 }  // namespace
 
-TurtleWalk::TurtleWalk(const ModuleString& string, const std::string& file, const TurtleOptions& options,
+TurtleWalk::TurtleWalk(const ModuleString& string, const std::string& file, const View& view, const TurtleOptions& options,
                        const RunOptions& run, TurtleAnswers* answers)
-    : string_(string), file_(file), options_(options), run_(run), answers_(answers) {
+    : string_(string),
+      file_(file),
+      view_(view),
+      options_(options),
+      run_(run),
+      answers_(answers),
+      angle_(first_of(options.angle, view.settings.angle, std::numbers::pi / 2)),
+      foliage_(view.surfaces) {
   for (const std::string& name : string.names) actions_.push_back(turtle_action(name));
   skipped_.assign(string.names.size(), 0);
-  state_.width = options.width;
-  state_.elasticity = options.elasticity;
-  state_.tropism = options.tropism;
-  out_.last_width = options.width;
+  state_.width = first_of(options.width, view.settings.width, TurtleOptions::kWidth);
+  state_.elasticity = first_of(options.elasticity, view.settings.elasticity, 0.0);
+  state_.tropism = first_of(options.tropism, view.settings.tropism, Vec3(0, 0, -1));
+  state_.color = view.settings.color;
+  out_.last_width = state_.width;
 }
 
 std::optional<Turtled> TurtleWalk::walk() {
@@ -39,15 +53,11 @@ std::optional<Turtled> TurtleWalk::walk() {
   if (cancelled_) return std::nullopt;
   for (std::size_t i = 0; i < skipped_.size(); ++i)
     if (skipped_[i] > 0) out_.skipped[string_.names[i]] = skipped_[i];
+  out_.skipped.insert(view_.skipped.begin(), view_.skipped.end());
   out_.radii_clamped = pen_.radii_clamped();
   out_.skeleton = std::move(pen_).take();
   out_.foliage = std::move(foliage_).take();
   return std::move(out_);
-}
-
-double TurtleWalk::angle() const {
-  if (count() > 0) return parameter(0) * kRadian;
-  return options_.angle != 0 ? options_.angle : std::numbers::pi / 2;
 }
 
 bool TurtleWalk::cancelled() {
@@ -89,14 +99,12 @@ void TurtleWalk::obey(TurtleAction action) {
       if (count() == 0) return skip();
       state_.elasticity = parameter(count() - 1);
       return;
-    case TurtleAction::kTropism:
-      if (count() != 3) return skip();
-      state_.tropism = {parameter(0), parameter(1), parameter(2)};
-      return;
-    case TurtleAction::kThinner: return set_width(parameter_or(state_.width * options_.width_factor));
-    case TurtleAction::kThicker: return set_width(parameter_or(state_.width / options_.width_factor));
-    case TurtleAction::kNextColor: return change_color(1);
-    case TurtleAction::kLastColor: return change_color(kColors - 1);
+    case TurtleAction::kStiffer: return stiffen(1);
+    case TurtleAction::kTropismOrSofter: return set_tropism_or_soften();
+    case TurtleAction::kThinner: return set_width(count() > 0 ? parameter(0) : next_width(-1));
+    case TurtleAction::kThicker: return set_width(count() > 0 ? parameter(0) : next_width(1));
+    case TurtleAction::kNextColor: return change_color(view_.settings.color_increment);
+    case TurtleAction::kLastColor: return change_color(kColors - view_.settings.color_increment);
     case TurtleAction::kOpen: return open_bracket();
     case TurtleAction::kClose: return close_bracket();
     case TurtleAction::kCut: return cut();
@@ -115,6 +123,7 @@ void TurtleWalk::obey(TurtleAction action) {
       pass_control_point();
       return close_cylinder();
     case TurtleAction::kAxisTangents: return set_tangents();
+    case TurtleAction::kContour: return choose_contour();
     case TurtleAction::kAskPosition: return answer(state_.position);
     case TurtleAction::kAskHeading: return answer(state_.frame.heading);
     case TurtleAction::kAskUp: return answer(state_.frame.up);
@@ -178,6 +187,22 @@ void TurtleWalk::draw() {
 void TurtleWalk::set_width(double width) {
   if (!(width > 0) || !std::isfinite(width)) fail("a width of " + number_text(width), "a width above 0");
   state_.width = out_.last_width = width;
+}
+
+double TurtleWalk::next_width(int steps_up) const {
+  if (const auto increment = view_.settings.width_increment; increment && !options_.width_factor)
+    return std::max(state_.width + steps_up * *increment, kLeastWidth);
+  const double factor = options_.width_factor.value_or(kWidthFactor);
+  return steps_up > 0 ? state_.width / factor : state_.width * factor;
+}
+
+void TurtleWalk::stiffen(double sign) {
+  state_.elasticity += sign * (count() > 1 ? parameter(1) : view_.settings.elasticity_increment);
+}
+
+void TurtleWalk::set_tropism_or_soften() {
+  if (count() != 3) return stiffen(-1);
+  state_.tropism = {parameter(0), parameter(1), parameter(2)};
 }
 
 void TurtleWalk::change_color(std::uint32_t steps_up) {
@@ -250,10 +275,16 @@ void TurtleWalk::drop_outlines(std::size_t kept) {
   outlines_.resize(kept);
 }
 
+// As in cpfg the turtle goes on at the surface's end.
 void TurtleWalk::surface() {
-  const std::string& symbol = string_.names[string_.symbol[index_]];
-  const Vec3 stretch = count() < 3 ? Vec3(parameter_or(1)) : Vec3(parameter(0), parameter(1), parameter(2));
-  note(foliage_.add_surface(site(), symbol.substr(1), scale_ * grown_size() * stretch));
+  const std::string name = string_.names[string_.symbol[index_]].substr(1);
+  const Vec3 stretch = scale_ * grown_size() * (count() < 3 ? Vec3(parameter_or(1)) : Vec3(parameter(0), parameter(1), parameter(2)));
+  note(foliage_.add_surface(site(), name, stretch));
+  const auto known = view_.surfaces.find(name);
+  if (known == view_.surfaces.end()) return;
+  const Vec3 end = stretch * known->second.end_point;
+  const TurtleFrame& frame = state_.frame;
+  place(state_.position + end.x * frame.left + end.y * frame.heading + end.z * frame.up);
 }
 
 double TurtleWalk::diameter() const {
@@ -291,7 +322,7 @@ void TurtleWalk::draw_stretch(Cylinder& cylinder, const AxisStretch& stretch) {
 
 void TurtleWalk::pass_control_point() {
   Cylinder& cylinder = own_cylinder();
-  const ControlPoint point{state_.position, state_.frame.heading, radius(), state_.tangent_in, state_.tangent_out};
+  const ControlPoint point{state_.position, state_.frame.heading, state_.contour * radius(), state_.tangent_in, state_.tangent_out};
   draw_stretch(cylinder, cylinder.axis.pass(point));
   state_.pen = cylinder.pen;  // branches grow from here
 }
@@ -308,6 +339,17 @@ void TurtleWalk::set_tangents() {
   if (count() == 0) return skip();
   state_.tangent_in = parameter(0);
   state_.tangent_out = parameter(count() > 1 ? 1 : 0);
+}
+
+void TurtleWalk::choose_contour() {
+  state_.contour = 1;
+  if (count() == 0) return;
+  const double number = parameter(0);
+  const auto known = view_.contours.find(number >= 0 && number < 1e9 ? static_cast<std::size_t>(number) : 0);
+  if (known != view_.contours.end())
+    state_.contour = known->second;
+  else if (number != 0)
+    skip();
 }
 
 void TurtleWalk::open_bracket() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include "lsystem/skeleton_pen.h"
 #include "lsystem/turtle.h"
 #include "lsystem/turtle_actions.h"
+#include "lsystem/view.h"
 
 namespace cambium {
 
@@ -23,8 +25,8 @@ using TurtleAnswers = std::unordered_map<std::uint64_t, Vec3>;
 class TurtleWalk {
  public:
   /// `file` is where errors are said to be; `answers` null: nobody asks. All references outlive the walk.
-  TurtleWalk(const ModuleString& string, const std::string& file, const TurtleOptions& options, const RunOptions& run,
-             TurtleAnswers* answers);
+  TurtleWalk(const ModuleString& string, const std::string& file, const View& view, const TurtleOptions& options,
+             const RunOptions& run, TurtleAnswers* answers);
 
   /// New modules are drawn as far as they have grown. `parts` outlives the walk.
   void grow(const GrowthParts& parts) { parts_ = &parts; }
@@ -33,6 +35,8 @@ class TurtleWalk {
   std::optional<Turtled> walk();
 
  private:
+  static constexpr double kRadian = std::numbers::pi / 180.0;
+
   /// What brackets save.
   struct State {
     TurtleFrame frame;
@@ -43,6 +47,7 @@ class TurtleWalk {
     SkeletonPen::Place pen;
     std::uint32_t color = 0;
     double tangent_in = 1.2, tangent_out = 1.2;  // of generalized cylinders
+    double contour = 1;                          // its radius, of the line's
     std::int32_t cylinder = -1;                  // of cylinders_, in which the turtle is; -1: none
     int turns = 0;  // since the frame was last repaired
   };
@@ -69,7 +74,7 @@ class TurtleWalk {
   double length() const { return parameter_or(options_.step) * scale_ * grown_size(); }
   double grown_size() const { return parts_ ? parts_->size(index_) : 1; }
   double grown_turn() const { return parts_ ? parts_->turn(index_) : 1; }
-  double angle() const;
+  double angle() const { return count() > 0 ? parameter(0) * kRadian : angle_; }
   void skip() { ++skipped_[string_.symbol[index_]]; }
   bool cancelled();
   [[noreturn]] void fail(std::string found, std::string expected) const;
@@ -84,6 +89,7 @@ class TurtleWalk {
   void line(SkeletonPen::Place& pen, const AxisSample& from, const AxisSample& tip, double length);
   double radius() const { return 0.5 * state_.width * options_.width_unit * (parts_ ? parts_->width(index_) : 1); }
   void set_width(double width);
+  double next_width(int steps_up) const;
   void change_color(std::uint32_t steps_up);
   FoliageCollector::Site site() const;
   void note(FoliageCollector::Outcome outcome);
@@ -103,6 +109,9 @@ class TurtleWalk {
   void pass_control_point();
   void close_cylinder();
   void set_tangents();
+  void choose_contour();
+  void stiffen(double sign);
+  void set_tropism_or_soften();
   void open_bracket();
   void close_bracket();
   void cut();
@@ -112,10 +121,12 @@ class TurtleWalk {
 
   const ModuleString& string_;
   const std::string& file_;
+  const View& view_;
   const TurtleOptions& options_;
   const RunOptions& run_;
   TurtleAnswers* const answers_;
   const GrowthParts* parts_ = nullptr; // null: all is full-grown
+  const double angle_;
   std::vector<TurtleAction> actions_;  // by symbol
   std::vector<std::size_t> skipped_;   // by symbol
   std::size_t index_ = 0;              // of the module being obeyed

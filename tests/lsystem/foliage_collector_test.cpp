@@ -7,6 +7,8 @@
 namespace cambium {
 namespace {
 
+const FoliageCollector::Surfaces kNoSurfaces;
+
 using Outcome = FoliageCollector::Outcome;
 
 const std::vector<Vec3> kLeaf = {{0.3, 0.5, 0}, {0.1, 1, 0.1}, {-0.2, 0.4, 0}};
@@ -17,7 +19,7 @@ std::vector<Vec3> scaled(std::vector<Vec3> corners, double scale) {
 }
 
 TEST(FoliageCollector, MultiplesOfAnOutlineShareAShape) {
-  FoliageCollector collector;
+  FoliageCollector collector(kNoSurfaces);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> noise(-1e-10, 1e-10), size(1e-3, 1e3);
   for (int i = 0; i < 1000; ++i) {
@@ -31,7 +33,7 @@ TEST(FoliageCollector, MultiplesOfAnOutlineShareAShape) {
 }
 
 TEST(FoliageCollector, ShapeTimesScaleIsTheOutline) {
-  FoliageCollector collector;
+  FoliageCollector collector(kNoSurfaces);
   const std::vector<Vec3> corners = scaled(kLeaf, 7);
   collector.add_outline({}, corners, {});
   const Foliage foliage = std::move(collector).take();
@@ -43,7 +45,7 @@ TEST(FoliageCollector, ShapeTimesScaleIsTheOutline) {
 }
 
 TEST(FoliageCollector, OtherOutlinesAreOtherShapes) {
-  FoliageCollector collector;
+  FoliageCollector collector(kNoSurfaces);
   collector.add_outline({}, kLeaf, {});
   std::vector<Vec3> other = kLeaf;
   other[0].x += 1e-3;
@@ -54,14 +56,14 @@ TEST(FoliageCollector, OtherOutlinesAreOtherShapes) {
 }
 
 TEST(FoliageCollector, CornersRecordedTwiceAreOne) {
-  FoliageCollector collector;
+  FoliageCollector collector(kNoSurfaces);
   collector.add_outline({}, kLeaf, {});
   collector.add_outline({}, {kLeaf[0], kLeaf[0], kLeaf[1], kLeaf[2], kLeaf[2], kLeaf[0]}, {});
   EXPECT_EQ(std::move(collector).take().shapes.size(), 1u);
 }
 
 TEST(FoliageCollector, NothingComesOfWhatHasNoSize) {
-  FoliageCollector collector;
+  FoliageCollector collector(kNoSurfaces);
   EXPECT_EQ(collector.add_outline({}, {}, {}), Outcome::kNothing);
   EXPECT_EQ(collector.add_outline({}, {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {}), Outcome::kNothing);
   EXPECT_EQ(collector.add_outline({}, {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {}), Outcome::kNothing);  // also the second time
@@ -72,7 +74,7 @@ TEST(FoliageCollector, NothingComesOfWhatHasNoSize) {
 }
 
 TEST(FoliageCollector, SurfacesSpheresAndDiscsAreSharedToo) {
-  FoliageCollector collector;
+  FoliageCollector collector(kNoSurfaces);
   for (int i = 1; i < 4; ++i) {
     collector.add_surface({}, "l", Vec3(0.1 * i));
     collector.add_sphere({}, i);

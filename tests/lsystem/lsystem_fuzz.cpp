@@ -1,6 +1,11 @@
-// libFuzzer's entry: any bytes as an L-system of any dialect, parsed, derived, explained and drawn. What it throws but an InputError is a finding.
+// libFuzzer's entry: any bytes as an L-system of any dialect, parsed, derived, explained and drawn, and as each of the files that may
+// stand beside one. What it throws but an InputError is a finding.
 // Also part of the tests, which replay corpus/.
+#include "lsystem/contour_file.h"
+#include "lsystem/curve.h"
 #include "lsystem/lsystem.h"
+#include "lsystem/patch_surface.h"
+#include "lsystem/view_file.h"
 
 #include <atomic>
 #include <chrono>
@@ -61,13 +66,24 @@ void derive_and_draw(std::string_view text) {
   if (!run.cancelled()) interpret(*string, system, turtle, run);
 }
 
+template <class Read>
+void read_or_refuse(Read&& read) {
+  try {
+    read();
+  } catch (const InputError&) {
+  }
+}
+
 }  // namespace
 }  // namespace cambium
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try {
-    cambium::derive_and_draw({reinterpret_cast<const char*>(data), size});
-  } catch (const cambium::InputError&) {
-  }
+  using namespace cambium;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  read_or_refuse([&] { derive_and_draw(text); });
+  read_or_refuse([&] { read_view_file(text, "/nonexistent/fuzzed.v"); });
+  read_or_refuse([&] { read_patch_surface(text, "/nonexistent/fuzzed.s", "l", 1); });
+  read_or_refuse([&] { read_contour_radius(text, "/nonexistent/fuzzed.con"); });
+  read_or_refuse([&] { read_curves(text, "/nonexistent/fuzzed.func"); });
   return 0;
 }

@@ -7,11 +7,11 @@ namespace {
 
 TEST(ModuleParser, SymbolsOfTwoAndThreeCharactersAreRead) {
   const ModuleString string =
-      test::derived(test::parsed(test::grammar("@Gs@G@Tx@Ts(1)?P?H~l~k(2)@v@M(1,2,3)1 2a?", "")), 0);
+      test::derived(test::parsed(test::grammar("@Gs@G@Tx(2)@Tz@Ts(1)?P?H~l~k(2)@v@#(1)@!@M(1,2,3)1 2a?", "")), 0);
   std::vector<std::string> names;
   for (const std::uint16_t symbol : string.symbol) names.push_back(string.names[symbol]);
-  const std::vector<std::string> expected = {"@Gs", "@G", "@T", "x",  "@Ts", "?P", "?H", "~l",
-                                             "~k",  "@v", "@M", "1", "2",   "a",  "?"};
+  const std::vector<std::string> expected = {"@Gs", "@G", "@Tx", "@T", "z", "@Ts", "?P", "?H", "~l",
+                                             "~k",  "@v", "@#",  "@!", "@M", "1",  "2",  "a",  "?"};
   EXPECT_EQ(names, expected);
 }
 
