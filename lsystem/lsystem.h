@@ -43,12 +43,12 @@ struct TurtleOptions {
   static constexpr double kWidth = 0.1;
 
   double step = 1;                         ///< metres of an F without parameter
-  std::optional<double> angle;             ///< radians of + - & ^ \ / without parameter. Default: 90 degrees
-  std::optional<double> width;             ///< diameter before the first ! or #, in width units. Default: kWidth
+  std::optional<double> angle{};           ///< radians of + - & ^ \ / without parameter. Default: 90 degrees
+  std::optional<double> width{};           ///< diameter before the first ! or #, in width units. Default: kWidth
   double width_unit = 1;                   ///< metres; ABOP's figures give widths in pixels beside lengths in metres, say
-  std::optional<double> width_factor;      ///< of a `!` without parameter; `#` divides by it. Default: halves the area
-  std::optional<Vec3> tropism;             ///< its length is its intensity. Default: down
-  std::optional<double> elasticity;        ///< default: 0
+  std::optional<double> width_factor{};    ///< of a `!` without parameter; `#` divides by it. Default: halves the area
+  std::optional<Vec3> tropism{};           ///< its length is its intensity. Default: down
+  std::optional<double> elasticity{};      ///< default: 0
   std::size_t max_modules = 100'000'000;   ///< of the string that the homomorphism makes
 };
 
