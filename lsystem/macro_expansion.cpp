@@ -105,6 +105,11 @@ void MacroTable::expand_into(const MarkedText& in, MarkedText& out, int depth) {
       while (open < in.size() && blank(in[open].c)) ++open;
     const bool invoked = found != macros_.end() && !found->second.busy &&
                          (!found->second.takes_arguments || (open < in.size() && in[open].c == '('));
+    if (name == "__LINE__") {
+      for (const char digit : std::to_string(in[i].place.line)) out.push_back({digit, in[i].place});
+      i += name.size();
+      continue;
+    }
     if (!invoked) {
       length = std::max(length, name.size());
       out.insert(out.end(), in.begin() + static_cast<long>(i), in.begin() + static_cast<long>(i + length));

@@ -18,7 +18,7 @@ using MarkedText = std::vector<MarkedChar>;
 /// The identifier that begins at `index`, or empty.
 std::string word_at(const MarkedText& text, std::size_t index);
 
-/// Macros defined so far. Errors: InputError for a malformed definition or invocation, or when expansion explodes.
+/// Macros defined so far, and __LINE__. Errors: InputError for a malformed definition or invocation, or when expansion explodes.
 class MacroTable {
  public:
   explicit MacroTable(const std::vector<std::string>& files) : files_(files) {}

@@ -62,8 +62,14 @@ std::optional<std::string> ModuleParser::symbol() {
       name += cursor_.peek();
       cursor_.advance();
     }
+    refuse_environment(name, at);
   }
   return name;
+}
+
+// A model that waits for answers would grow into something else without a word.
+void ModuleParser::refuse_environment(const std::string& name, std::size_t at) const {
+  if (name == "?E") cursor_.fail_at(at, "'?E', a question to an environment program", "an L-system that is not open");
 }
 
 std::uint16_t ModuleParser::number(const std::string& name, std::size_t at) {
@@ -184,6 +190,11 @@ ModuleParser::FormalModule ModuleParser::formal(Scope& scope) {
   return out;
 }
 
+void ModuleParser::refuse_object_production() const {
+  if (cursor_.looking_at("-o>"))
+    cursor_.fail_at(cursor_.position(), "'-o>', an object production", "'-->': objects of Rayshade are not made here");
+}
+
 // At a line end: the next line goes on with this production only by a mark that cannot begin one.
 void ModuleParser::go_to_arrow_line() {
   const std::size_t line_end = cursor_.position();
@@ -233,6 +244,7 @@ ModuleParser::Predecessors ModuleParser::predecessors(Scope& scope) {
     if (cursor_.at_line_end()) go_to_arrow_line();
     if (at_arrow() || cursor_.peek() == ':') break;
     if (cursor_.looking_at("->")) cursor_.fail_at(cursor_.position(), "'->'", "'-->'");
+    refuse_object_production();
     if (cursor_.peek() == '<') {
       left_part(parts);
     } else if (cursor_.peek() == '>') {
@@ -295,6 +307,7 @@ Production ModuleParser::production() {
   {
     const Cursor::LineEnds inside(cursor_, true);
     if (cursor_.accept(':')) condition(out, scope);
+    refuse_object_production();
     if (!at_arrow()) cursor_.fail(cursor_.peek() == '=' ? "'==' or '-->'" : "'-->'");
     cursor_.advance(3);
   }

@@ -36,6 +36,8 @@ class ModuleParser {
   void left_part(Predecessors& parts);
   void right_part(Predecessors& parts);
   void go_to_arrow_line();
+  void refuse_object_production() const;
+  void refuse_environment(const std::string& name, std::size_t at) const;
   void check(const Predecessors& parts) const;
   void condition(Production& out, Scope& scope);
   void weight(Production& out, Scope& scope);

@@ -71,7 +71,7 @@ TEST(Derive, QueriesAreAnsweredByTheTurtleBeforeEveryStep) {
   EXPECT_EQ(derived_text(text, 2), "FFA?P(0,0,2)");
   EXPECT_EQ(derived_text(text, 5), "FFF+(90)F+(90)FA?P(-1,0,2)");
   const ModuleString frame =
-      derived(parsed(grammar("&(90)?H(0,0,0)?U(0,0,0)?L(0,0,0)?E(0,0,0)?P(1)", "A --> A\nhomomorphism\n& --> +F")), 1);
+      derived(parsed(grammar("&(90)?H(0,0,0)?U(0,0,0)?L(0,0,0)?Q(0,0,0)?P(1)", "A --> A\nhomomorphism\n& --> +F")), 1);
   const double expected[] = {90, 0, 1, 0, 0, 0, -1, -1, 0, 0, 0, 0, 0, 1};
   for (std::size_t i = 0; i < 14; ++i) EXPECT_NEAR(frame.parameters[i], expected[i], 1e-12) << i;
 }

@@ -26,6 +26,11 @@ TEST(MacroExpansion, AMacroIsNotExpandedInsideItself) {
   EXPECT_EQ(expanded("#define A A+1\nA"), "A+1");
 }
 
+TEST(MacroExpansion, LinesKnowTheirNumber) {
+  EXPECT_EQ(expanded("#define HERE __LINE__\n__LINE__ HERE"), "2 2");
+  EXPECT_EQ(expanded("#define M(a) a __LINE__ a__LINE__\n\nM(__LINE__)"), "\n3 3 a__LINE__");
+}
+
 TEST(MacroExpansion, ExplosionsAreErrors) {
   std::string text = "#define A0 x\n";
   for (int i = 1; i <= 40; ++i) {
