@@ -33,16 +33,18 @@ std::int32_t SkeletonPen::add(const SkeletonNode& node) {
   return static_cast<std::int32_t>(skeleton_.nodes.size() - 1);
 }
 
+std::int32_t SkeletonPen::node_at(const Place& place, const Vec3& from) const {
+  if (stands_at(place.node, from)) return place.node;
+  return stands_at(starts_[place.start], from) ? starts_[place.start] : -1;
+}
+
 void SkeletonPen::draw(Place& place, const AxisSample& from, const AxisSample& tip) {
   bool lateral = place.lateral;
-  std::int32_t parent = place.node;
-  if (!stands_at(parent, from.position)) {
-    parent = starts_[place.start];
-    if (!stands_at(parent, from.position)) {
-      parent = add({from.position, from.radius, -1, std::nullopt, std::nullopt});
-      starts_[place.start] = parent;
-      lateral = false;
-    }
+  std::int32_t parent = node_at(place, from.position);
+  if (parent < 0) {
+    parent = add({from.position, from.radius, -1, std::nullopt, std::nullopt});
+    start_at(place, parent);
+    lateral = false;
   }
   const double parent_radius = skeleton_.nodes[static_cast<std::size_t>(parent)].radius;
   if (std::max(from.radius, tip.radius) > parent_radius) ++radii_clamped_;

@@ -29,6 +29,10 @@ class SkeletonPen {
   void lift(Place& place);
   /// An internode from where the turtle stands to `tip`.
   void draw(Place& place, const AxisSample& from, const AxisSample& tip);
+  /// The node that a line from there would go on from; -1: it would begin a piece.
+  std::int32_t node_at(const Place& place, const Vec3& from) const;
+  /// Pieces that begin where the pen was lifted to for `place` go on from a node instead, which stands there.
+  void start_at(const Place& place, std::int32_t node) { starts_[place.start] = node; }
   /// The node that what grows at `place` hangs on; -1: none yet.
   std::int32_t nearest_node(const Place& place) const { return place.node >= 0 ? place.node : starts_[place.start]; }
 

@@ -177,6 +177,7 @@ void TurtleWalk::draw() {
   if (in_cylinder()) {  // its wood is the cylinder's
     move(length);
   } else {
+    tie_to_cylinder();
     const Vec3 tip = state_.position + length * state_.frame.heading;
     line(state_.pen, {state_.position, radius()}, {tip, radius()}, length);
     state_.position = tip;
@@ -320,11 +321,25 @@ void TurtleWalk::draw_stretch(Cylinder& cylinder, const AxisStretch& stretch) {
     line(cylinder.pen, stretch[i - 1], stretch[i], glm::distance(stretch[i - 1].position, stretch[i].position));
 }
 
+ControlPoint TurtleWalk::control_point(const State& state) const {
+  return {state.position, state.frame.heading, state.contour * radius(state), state.tangent_in, state.tangent_out};
+}
+
 void TurtleWalk::pass_control_point() {
   Cylinder& cylinder = own_cylinder();
-  const ControlPoint point{state_.position, state_.frame.heading, state_.contour * radius(), state_.tangent_in, state_.tangent_out};
-  draw_stretch(cylinder, cylinder.axis.pass(point));
+  draw_stretch(cylinder, cylinder.axis.pass(control_point(state_)));
   state_.pen = cylinder.pen;  // branches grow from here
+}
+
+// A branch that leaves the cylinder around its brackets between two control points makes one of where it leaves.
+void TurtleWalk::tie_to_cylinder() {
+  if (state_.cylinder < 0 || in_cylinder()) return;
+  Cylinder& around = cylinders_[static_cast<std::size_t>(state_.cylinder)];
+  const State& leaving = brackets_[around.depth].state;
+  const bool goes_from_there = state_.pen.start == leaving.pen.start && leaving.pen.start != around.pen.start;
+  if (!goes_from_there || !around.axis.passes_its_points() || pen_.node_at(leaving.pen, leaving.position) >= 0) return;
+  draw_stretch(around, around.axis.pass(control_point(leaving)));
+  pen_.start_at(leaving.pen, around.pen.node);
 }
 
 void TurtleWalk::close_cylinder() {

@@ -87,7 +87,8 @@ class TurtleWalk {
   void move(double length) { place(state_.position + length * state_.frame.heading); }
   void draw();
   void line(SkeletonPen::Place& pen, const AxisSample& from, const AxisSample& tip, double length);
-  double radius() const { return 0.5 * state_.width * options_.width_unit * (parts_ ? parts_->width(index_) : 1); }
+  double radius() const { return radius(state_); }
+  double radius(const State& state) const { return 0.5 * state.width * options_.width_unit * (parts_ ? parts_->width(index_) : 1); }
   void set_width(double width);
   double next_width(int steps_up) const;
   void change_color(std::uint32_t steps_up);
@@ -106,7 +107,9 @@ class TurtleWalk {
   void open_cylinder(GeneralizedCylinder axis, bool steps_are_points);
   Cylinder& own_cylinder();
   void draw_stretch(Cylinder& cylinder, const AxisStretch& stretch);
+  ControlPoint control_point(const State& state) const;
   void pass_control_point();
+  void tie_to_cylinder();
   void close_cylinder();
   void set_tangents();
   void choose_contour();

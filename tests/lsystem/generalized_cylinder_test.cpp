@@ -140,6 +140,25 @@ TEST(GeneralizedCylinder, HasBranchesInBrackets) {
   EXPECT_EQ(skeleton.nodes.back().position, Vec3(0, 0, 3));
 }
 
+TEST(GeneralizedCylinder, PassesWhereABranchLeavesIt) {
+  // Nothing tells the curve of the bracket but the F in it; the same as with a control point there.
+  const Skeleton tied = turtled("@Gs+(30)f(2)-(50)[&(60)FF[F]][~l]f@Ge").skeleton;
+  const Skeleton told = turtled("@Gs+(30)f(2)-(50)@Gc[&(60)FF[F]]f@Ge").skeleton;
+  ASSERT_EQ(tied.nodes.size(), told.nodes.size());
+  for (std::size_t i = 0; i < tied.nodes.size(); ++i) {
+    EXPECT_EQ(tied.nodes[i].position, told.nodes[i].position) << i;
+    EXPECT_EQ(tied.nodes[i].parent, told.nodes[i].parent) << i;
+    EXPECT_EQ(tied.nodes[i].lateral, told.nodes[i].lateral) << i;
+  }
+  // Leaves do not.
+  EXPECT_EQ(turtled("@Gsf[+~l]f@Ge").skeleton.nodes.size(), 2u);
+  // Nor does what begins elsewhere.
+  const Skeleton apart = turtled("@Gsf[+f(3)F]f@Ge").skeleton;
+  ASSERT_EQ(apart.nodes.size(), 4u);
+  EXPECT_EQ(apart.nodes[0].parent, -1);
+  EXPECT_EQ(apart.nodes[2].parent, -1);
+}
+
 TEST(GeneralizedCylinder, TheTangentsCanBeSet) {
   EXPECT_EQ(turtled("@Gt(0)@Gsf+f@Ge").skeleton.nodes.size(), 2u);
   const double plain = turtled("@Gsf+f@Ge").total_length, slack = turtled("@Gt(3)@Gsf+f@Ge").total_length;
