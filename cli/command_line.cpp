@@ -5,6 +5,7 @@
 #include <new>
 
 #include "cli/commands.h"
+#include "cli/frames.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "raytrace/aov.h"
@@ -33,6 +34,14 @@ void add_common(CLI::App& app, CommandLine& line) {
       ->allow_extra_args(false);
 }
 
+/// --step of the commands that make something of a tree as it grows.
+void add_growth(CLI::App& app, CommandLine& line) {
+  CLI::Option* step = app.add_option("--step", line.growth_step,
+                 "an L-system as it grows: once for each so many derivation steps, such as 0.5, into numbered files");
+  CLI::Option* frame = app.add_option("--frame", line.frame, "only this one of the numbered files, from 1")->check(CLI::Range(1, 9999));
+  if (app.get_name() != "render") frame->needs(step);  // which has --turntable as well
+}
+
 CLI::App* add_command(CLI::App& app, CommandLine& line, Command command, const char* name, const char* what,
                       bool needs_output) {
   CLI::App* sub = app.add_subcommand(name, what);
@@ -53,11 +62,12 @@ void declare(CLI::App& app, CommandLine& line) {
   derive->add_flag("--explain", line.explain,
                    "instead of the string the last step: a line for each module before it, with the rule (file:line:column) and "
                    "what it made");
-  add_command(app, line, Command::kGrow, "grow", "the skeleton only (.skel.json .swc)", true);
+  add_growth(*add_command(app, line, Command::kGrow, "grow", "the skeleton only (.skel.json .swc)", true), line);
   add_command(app, line, Command::kSurface, "surface", "the BlobTree that it becomes (.blob.json)", true);
   CLI::App* eval = add_command(app, line, Command::kEval, "eval", "field and gradient at points (.csv)", true);
   eval->add_option("--points", line.points, "CSV of x,y,z rows, metres")->required();
   CLI::App* mesh = add_command(app, line, Command::kMesh, "mesh", "a closed triangle mesh (.obj .ply .stl .off .glb)", true);
+  add_growth(*mesh, line);
   CLI::Option* voxel = mesh->add_option("--voxel", line.voxel, "edge of a cell, such as 2mm");
   mesh->add_option("--tolerance", line.tolerance, "largest distance from the surface, such as 0.5mm")->excludes(voxel);
   mesh->add_option("--min-sides", line.min_sides, "around the thinnest twig, at least: 4 to 64; 6 by default")->check(CLI::Range(4, 64));
@@ -75,6 +85,7 @@ void declare(CLI::App& app, CommandLine& line) {
   volume->add_option("--voxel", line.voxel, "edge of a voxel, such as 5mm");
   volume->add_option("--kind", line.kind, "sdf, field or fog");
   CLI::App* render = add_command(app, line, Command::kRender, "render", "a ray-traced still (.png .jpg .exr)", true);
+  add_growth(*render, line);
   render->add_option("--size", line.size, "pixels, such as 768x1024");
   render->add_option("--samples", line.samples, "per pixel, as min..max such as 1..16; 16 alone: up to 16");
   render->add_option("--noise", line.noise,
@@ -84,7 +95,6 @@ void declare(CLI::App& app, CommandLine& line) {
   render->add_option("--crop", line.crop, "x0,y0,x1,y1: only these pixels of the whole picture, the last not included");
   render->add_option("--close-up", line.close_up, "of where this branch leaves its parent; cambium info lists the branches");
   render->add_option("--turntable", line.turntable, "so many pictures around the tree: tree.0001.png and on")->check(CLI::Range(1, 9999));
-  render->add_option("--frame", line.frame, "only this picture of the turntable, from 1")->check(CLI::Range(1, 9999));
   render->add_option("--bits", line.bits, "of each channel of a .png: 8 or 16")->check(CLI::IsMember({8, 16}));
   render->add_option("--aov", line.aovs,
                      "auxiliary images, a list or all: " + aov_names() + "; layers of an .exr, files beside a .png")
@@ -93,7 +103,7 @@ void declare(CLI::App& app, CommandLine& line) {
   add_command(app, line, Command::kInfo, "info", "counts, bounds, radii, what conditioning did", false);
 }
 
-Outcome run(Job& job) {
+Outcome run_once(Job& job) {
   switch (job.line.command) {
     case Command::kDerive:
       return run_derive(job);
@@ -114,6 +124,8 @@ Outcome run(Job& job) {
   }
   return Outcome::kDone;
 }
+
+Outcome run(Job& job) { return job.line.growth_step ? run_frames(job, run_once) : run_once(job); }
 
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();

@@ -23,6 +23,7 @@ struct CommandLine {
   std::optional<std::size_t> max_modules;
   std::optional<int> step;                   ///< derive
   bool explain = false;                      ///< derive
+  std::optional<double> growth_step;         ///< grow, mesh, render: derivation steps from one frame to the next
   bool quiet = false, json = false;
   bool no_leaves = false;
   std::vector<std::string> overrides;        ///< of --set
@@ -39,7 +40,8 @@ struct CommandLine {
   std::optional<double> noise;               ///< render
   std::optional<int> bounces;                ///< render
   std::optional<std::uint32_t> close_up;     ///< render: a branch
-  std::optional<int> turntable, frame;       ///< render: how many pictures around the tree, and the only one of them, from 1
+  std::optional<int> turntable;              ///< render: how many pictures around the tree
+  std::optional<int> frame;                  ///< of --turntable or --step the only one to make, from 1
   int bits = 8;                              ///< render
   std::vector<std::string> aovs;             ///< render
 };

@@ -64,11 +64,6 @@ struct Picture {
   std::optional<Turntable> turn;
 };
 
-/// tree.png has tree.0001.png to tree.0036.png for 36 frames.
-std::filesystem::path path_of_frame(std::filesystem::path path, int number) {
-  return path.replace_extension(fmt::format(".{:04}{}", number, path.extension().string()));
-}
-
 /// One, those of a turntable, or a single frame of it.
 std::vector<Picture> pictures_of(const CommandLine& line) {
   if (!line.turntable) {
@@ -81,7 +76,7 @@ std::vector<Picture> pictures_of(const CommandLine& line) {
   }
   std::vector<Picture> pictures;
   for (int number = line.frame.value_or(1); number <= line.frame.value_or(frames); ++number)
-    pictures.push_back({path_of_frame(line.output, number), Turntable{number - 1, frames}});
+    pictures.push_back({numbered_path(line.output, number), Turntable{number - 1, frames}});
   return pictures;
 }
 

@@ -36,6 +36,7 @@ std::optional<Plant> walk_turtle(Job& job, const ModuleString& string, const LSy
 
 /// What the source says is there, leaves and all.
 std::optional<Plant> read_or_grow(Job& job) {
+  if (job.grown) return job.grown;
   if (job.source_kind == InputKind::kSkeleton) {
     const StageTimer timer(job.figures, "read");
     return read_plant(job.source);

@@ -33,6 +33,7 @@ class Job {
   Figures figures;
   ProgressLine progress;
   RunOptions run;
+  std::optional<Plant> grown;                    ///< in place of what the source would give
   std::vector<std::string> warnings;             ///< lines for stderr once the work is done: what was made is not all it should be
 };
 

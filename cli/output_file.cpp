@@ -1,6 +1,7 @@
 #include "cli/output_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -114,6 +115,17 @@ std::string require_extension(const fs::path& path, std::initializer_list<const 
     listed += (listed.empty() ? "" : " ") + std::string(extension);
   }
   throw InputError({path.string()}, "an unknown extension", "one of " + listed);
+}
+
+fs::path numbered_path(const fs::path& path, int number) {
+  fs::path stem = path;
+  std::string extension;
+  do {
+    extension = stem.extension().string() + extension;
+    stem.replace_extension();
+  } while (stem.extension() == ".skel");
+  stem += fmt::format(".{:04}{}", number, extension);
+  return stem;
 }
 
 void write_text(const fs::path& path, std::string_view text) {

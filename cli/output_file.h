@@ -35,6 +35,9 @@ class OutputFile {
 /// Errors: InputError naming the path.
 std::string require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed);
 
+/// The name of one of many: tree.png has tree.0007.png, tree.skel.json tree.0007.skel.json.
+std::filesystem::path numbered_path(const std::filesystem::path& path, int number);
+
 /// Writes all of `text` to `path`. Errors: std::system_error naming the path.
 void write_text(const std::filesystem::path& path, std::string_view text);
 

@@ -178,6 +178,17 @@ TEST_F(BadInput, OptionsAreNamed) {
   expect_refused({"render", input, "-o", at("a.jpg"), "--set", "render.background=transparent"}, at("a.jpg") + ": found a .jpg of a");
   expect_refused({"render", input, "-o", at("a.png"), "--frame", "2"}, "--frame: found frame 2 without a turntable");
   expect_refused({"render", input, "-o", at("a.png"), "--turntable", "3", "--frame", "4"}, "--frame: found frame 4, expected 1 to 3");
+  expect_refused({"grow", at("tiny.l"), "-o", at("a.swc"), "--step", "0"}, "--step: found 0, expected a number");
+  expect_refused({"grow", at("tiny.l"), "-o", at("a.swc"), "--step", "-1"}, "--step: found -1, expected a number");
+  expect_refused({"grow", at("tiny.l"), "-o", at("a.swc"), "--step", "nan"}, "--step: found nan, expected a number");
+  expect_refused({"grow", at("tiny.l"), "-o", at("a.swc"), "--step", "1e-5"}, "--step: found ");
+  expect_refused({"grow", at("tiny.l"), "-o", at("a.swc"), "--frame", "2"}, "cambium: ");
+  expect_refused({"grow", at("tiny.l"), "-o", at("a.swc"), "--step", "1", "--frame", "4"}, "--frame: found frame 4, expected 1 to 3");
+  expect_refused({"grow", at("tiny.l"), "-o", at("a.png"), "--step", "1"}, at("a.0001.png") + ": found ");
+  expect_refused({"grow", at("tiny.swc"), "-o", at("a.swc"), "--step", "1"}, at("tiny.swc") + ": found no L-system");
+  expect_refused({"mesh", at("tiny.blob.json"), "-o", at("a.ply"), "--step", "1"}, at("tiny.blob.json") + ": found no L-system");
+  expect_refused({"render", at("tiny.l"), "-o", at("a.png"), "--step", "1", "--turntable", "3"}, "--turntable: ");
+  expect_refused({"render", at("tiny.l"), "-o", at("a.png"), "--step", "1", "--close-up", "0"}, "--close-up: ");
   expect_refused({"render", input, "-o", at("a.png"), "--close-up", "7"}, "--close-up: found branch 7");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--voxel", "0"}, "--voxel: ");
   expect_refused({"mesh", input, "-o", at("a.obj"), "--voxel", "-2mm"}, "--voxel: ");

@@ -283,6 +283,46 @@ TEST_F(Commands, RenderWalksAroundTheTreeAndMakesOneFrameOfThatAlone) {
   EXPECT_EQ(folder_.read("turn.0002.png"), second);
 }
 
+TEST_F(Commands, GrowMakesASkeletonForEachTimeOfAGrowingPlant) {
+  const Json json = figures({"grow", at("tiny.l"), "-o", at("tree.skel.json"), "--step", "0.5"});
+  ASSERT_EQ(json["frames"].size(), 5u);
+  EXPECT_EQ(json["frames"][0]["nodes"], 0);
+  EXPECT_EQ(json["frames"][3]["time"], 1.5);
+  EXPECT_FALSE(folder_.has("tree.skel.json"));
+  figures({"grow", at("tiny.l"), "-o", at("whole.skel.json")});
+  EXPECT_EQ(folder_.read("tree.0005.skel.json"), folder_.read("whole.skel.json"));
+  const Json half = Json::parse(folder_.read("tree.0002.skel.json"));
+  EXPECT_DOUBLE_EQ(half["nodes"][1]["position"][2].get<double>(), 0.5);
+  EXPECT_DOUBLE_EQ(half["nodes"][1]["radius"].get<double>(), 0.05);
+  const std::string second = folder_.read("tree.0002.skel.json");
+  EXPECT_EQ(figures({"grow", at("tiny.l"), "-o", at("tree.skel.json"), "--step", "0.5", "--frame", "2"})["frames"].size(), 1u);
+  EXPECT_EQ(folder_.read("tree.0002.skel.json"), second);
+  EXPECT_EQ(figures({"grow", at("tiny.l"), "-o", at("year.swc"), "--step", "1.5"})["frames"].size(), 2u);
+}
+
+TEST_F(Commands, MeshAndRenderMakeAFileForEachTimeWhenThereIsWood) {
+  const Ran ran = run_program({"mesh", at("tiny.tree.toml"), "-o", at("tree.ply"), "--step", "1"});
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.err.find("nothing has grown yet: 1"), std::string::npos) << ran.err;
+  EXPECT_FALSE(folder_.has("tree.0001.ply"));
+  EXPECT_TRUE(folder_.has("tree.0002.ply"));
+  figures({"mesh", at("tiny.tree.toml"), "-o", at("whole.ply")});
+  EXPECT_EQ(folder_.read("tree.0003.ply"), folder_.read("whole.ply"));
+  const std::vector<std::string> render = {"render", at("tiny.tree.toml"), "-o", at("tree.png"), "--step", "0.5"};
+  const auto with_threads = [&](const char* threads) {
+    std::vector<std::string> arguments = render;
+    arguments.insert(arguments.end(), {"--threads", threads});
+    EXPECT_EQ(run_program(arguments).status, 0);
+  };
+  with_threads("1");
+  EXPECT_TRUE(folder_.has("tree.0005.png"));
+  EXPECT_FALSE(folder_.has("tree.0006.png"));
+  const std::string third = folder_.read("tree.0003.png");
+  EXPECT_NE(third, folder_.read("tree.0004.png"));
+  with_threads("2");
+  EXPECT_EQ(folder_.read("tree.0003.png"), third);
+}
+
 TEST_F(Commands, RenderComesCloseToABranch) {
   figures({"render", at("tiny.skel.json"), "-o", at("far.png"), "--size", "12x16", "--samples", "1"});
   figures({"render", at("tiny.skel.json"), "-o", at("near.png"), "--size", "12x16", "--samples", "1", "--close-up", "1"});

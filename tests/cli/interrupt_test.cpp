@@ -42,6 +42,17 @@ TEST_F(Interrupt, EndsALongRenderAndLeavesNothing) {
                      milliseconds(pause));
 }
 
+TEST_F(Interrupt, OfGrowingFramesLeavesWholeOnesAlone) {
+  const std::string input = folder_.write("tiny.l", kTinyLSystem);
+  const std::vector<std::string> arguments = {"render", input, "-o", folder_.path("a.png"), "--step", "1", "--size", "3000x3000",
+                                              "--samples", "256", "--frame", "3"};
+  const std::vector<std::string> before = folder_.names();
+  const auto working = [&] { return folder_.names().size() > before.size(); };
+  const Ran ran = run_program_and_signal(arguments, working, milliseconds(0), SIGINT);
+  EXPECT_EQ(ran.status, 1) << ran.err;
+  EXPECT_EQ(folder_.names(), before);
+}
+
 TEST_F(Interrupt, KeepsTheLastFinishedPassOfARender) {
   const std::string input = folder_.write("tiny.skel.json", kTinySkeleton);
   const std::vector<std::string> before = folder_.names();

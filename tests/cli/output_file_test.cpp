@@ -66,5 +66,11 @@ TEST(OutputFile, ExtensionsAreTheLongestListed) {
   EXPECT_THROW(require_extension("", {".swc"}), InputError);
 }
 
+TEST(NumberedPath, PutsTheNumberBeforeTheWholeExtension) {
+  EXPECT_EQ(numbered_path("a/tree.png", 7), "a/tree.0007.png");
+  EXPECT_EQ(numbered_path("tree.skel.json", 12), "tree.0012.skel.json");
+  EXPECT_EQ(numbered_path("my.tree.glb", 9999), "my.tree.9999.glb");
+}
+
 }  // namespace
 }  // namespace cambium
