@@ -87,7 +87,7 @@ TEST(Recipe, EveryPartIsRead) {
   EXPECT_EQ(recipe.skeleton.steps, 9);
   EXPECT_EQ(recipe.skeleton.seed, 3u);
   EXPECT_DOUBLE_EQ(recipe.skeleton.turtle.step, 0.05);
-  EXPECT_DOUBLE_EQ(recipe.skeleton.turtle.angle, std::numbers::pi / 4);
+  EXPECT_DOUBLE_EQ(recipe.skeleton.turtle.angle.value_or(0), std::numbers::pi / 4);
   EXPECT_EQ(recipe.surface.profile, Profile::kGalbraith);
   EXPECT_FALSE(recipe.surface.ridges);
   EXPECT_DOUBLE_EQ(recipe.surface.lip, 1.5);
