@@ -149,7 +149,7 @@ struct Turtled {
 /// lowers it, both without e by the view file's increment; @Td(x,y,z) sets the tropism.
 /// Looks at run.cancel every few milliseconds; only the homomorphism uses more than one thread. nullopt if cancelled.
 /// Errors: InputError (place: the file) for a negative length, a width of 0 or less, a position that is not finite, more nodes
-/// than int32 counts, or an error of the homomorphism.
+/// than int32 counts, outlines nested 100000 deep, or an error of the homomorphism.
 std::optional<Turtled> interpret(const ModuleString& string, const LSystem& system, const TurtleOptions& options,
                                  const RunOptions& run);
 

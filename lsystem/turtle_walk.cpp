@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kTurnsBetweenRepairs = 64;
 constexpr std::size_t kLooksBetweenPolls = 1024;
+constexpr std::size_t kMostOutlines = 100'000;
 constexpr std::uint32_t kColors = 256;  // in cpfg's colour map
 constexpr double kWidthFactor = 0.70710678118654752;  // halves the area
 constexpr double kLeastWidth = 1e-7;                  // cpfg's, of ! without a parameter
@@ -235,11 +236,16 @@ void TurtleWalk::note(FoliageCollector::Outcome outcome) {
 // `{` and `{(0)` enclose an outline; `{(1)` to `{(4)` a generalized cylinder: Hermite open, closed, B-spline open, closed.
 void TurtleWalk::open_brace() {
   const double kind = parameter_or(0);
-  if (kind == 0) return outlines_.push_back({site(), {}});
+  if (kind == 0) return open_outline();
   if (!(kind >= 1 && kind < 5)) return skip();
   const int number = static_cast<int>(kind) - 1;
   using Curve = GeneralizedCylinder::Curve;
   open_cylinder(GeneralizedCylinder(number < 2 ? Curve::kHermite : Curve::kBSpline, number % 2 == 1), true);
+}
+
+void TurtleWalk::open_outline() {
+  if (outlines_.size() >= kMostOutlines) fail("polygons nested deeper than 100000", "a '}' behind each '{'");
+  outlines_.push_back({site(), {}});
 }
 
 // A `}` without parameter closes whatever was opened.
@@ -257,7 +263,7 @@ void TurtleWalk::close_outline() {
 }
 
 void TurtleWalk::corner_of_step() {
-  if (!outlines_.empty() || (in_cylinder() && cylinder().steps_are_points)) corner();
+  if (!outlines_.empty() || (in_cylinder() && cylinders_[state_.cylinder].steps_are_points)) corner();
 }
 
 void TurtleWalk::corner() {
@@ -292,31 +298,20 @@ double TurtleWalk::diameter() const {
   return grown_size() * (count() > 0 ? parameter(0) * scale_ : state_.width * options_.width_unit);
 }
 
-// What is drawn in brackets inside of @Gs and @Ge is a branch like others, until it has a control point of its own.
-bool TurtleWalk::in_cylinder() const {
-  return state_.cylinder >= 0 && (cylinder().steps_are_points || cylinder().depth == brackets_.size());
-}
-
 void TurtleWalk::open_cylinder(GeneralizedCylinder axis, bool steps_are_points) {
-  state_.cylinder = static_cast<std::int32_t>(cylinders_.size());
-  cylinders_.push_back({std::move(axis), state_.pen, brackets_.size(), steps_are_points});
-  if (!cylinders_.back().axis.passes_its_points()) pen_.lift(cylinders_.back().pen);
+  OpenCylinder cylinder{std::move(axis), state_.pen, brackets_.size(), steps_are_points};
+  if (!cylinder.axis.passes_its_points()) pen_.lift(cylinder.pen);
+  state_.cylinder = cylinders_.open(std::move(cylinder), state_.cylinder);
 }
 
-/// The cylinder that the turtle is in. In brackets it is a copy, a branch of the one around them.
-TurtleWalk::Cylinder& TurtleWalk::own_cylinder() {
-  if (state_.cylinder < 0) open_cylinder(GeneralizedCylinder(), false);
-  if (cylinder().depth != brackets_.size()) {
-    Cylinder branch = cylinder();
-    branch.pen.lateral = true;
-    branch.depth = brackets_.size();
-    state_.cylinder = static_cast<std::int32_t>(cylinders_.size());
-    cylinders_.push_back(std::move(branch));
-  }
-  return cylinders_[static_cast<std::size_t>(state_.cylinder)];
+/// The one that the turtle is in; in brackets, a branch of the one around them.
+OpenCylinder& TurtleWalk::own_cylinder() {
+  if (state_.cylinder == OpenCylinders::kNone) open_cylinder(GeneralizedCylinder(), false);
+  state_.cylinder = cylinders_.branch(state_.cylinder, brackets_.size());
+  return cylinders_[state_.cylinder];
 }
 
-void TurtleWalk::draw_stretch(Cylinder& cylinder, const AxisStretch& stretch) {
+void TurtleWalk::draw_stretch(OpenCylinder& cylinder, const AxisStretch& stretch) {
   for (std::size_t i = 1; i < stretch.size(); ++i)
     line(cylinder.pen, stretch[i - 1], stretch[i], glm::distance(stretch[i - 1].position, stretch[i].position));
 }
@@ -326,15 +321,15 @@ ControlPoint TurtleWalk::control_point(const State& state) const {
 }
 
 void TurtleWalk::pass_control_point() {
-  Cylinder& cylinder = own_cylinder();
+  OpenCylinder& cylinder = own_cylinder();
   draw_stretch(cylinder, cylinder.axis.pass(control_point(state_)));
   state_.pen = cylinder.pen;  // branches grow from here
 }
 
 // A branch that leaves the cylinder around its brackets between two control points makes one of where it leaves.
 void TurtleWalk::tie_to_cylinder() {
-  if (state_.cylinder < 0 || in_cylinder()) return;
-  Cylinder& around = cylinders_[static_cast<std::size_t>(state_.cylinder)];
+  if (state_.cylinder == OpenCylinders::kNone || in_cylinder()) return;
+  OpenCylinder& around = cylinders_[state_.cylinder];
   const State& leaving = brackets_[around.depth].state;
   const bool goes_from_there = state_.pen.start == leaving.pen.start && leaving.pen.start != around.pen.start;
   if (!goes_from_there || !around.axis.passes_its_points() || pen_.node_at(leaving.pen, leaving.position) >= 0) return;
@@ -343,11 +338,11 @@ void TurtleWalk::tie_to_cylinder() {
 }
 
 void TurtleWalk::close_cylinder() {
-  Cylinder& cylinder = own_cylinder();
+  OpenCylinder& cylinder = own_cylinder();
   for (const AxisStretch& stretch : cylinder.axis.close()) draw_stretch(cylinder, stretch);
   state_.pen = cylinder.pen;
-  cylinders_.erase(cylinders_.begin() + state_.cylinder, cylinders_.end());
-  state_.cylinder = -1;
+  cylinders_.close(state_.cylinder);
+  state_.cylinder = OpenCylinders::kNone;
 }
 
 void TurtleWalk::set_tangents() {
@@ -376,7 +371,7 @@ void TurtleWalk::close_bracket() {
   if (brackets_.empty()) fail("a ']'", "a '[' before it");
   state_ = brackets_.back().state;
   drop_outlines(brackets_.back().outlines);
-  cylinders_.erase(cylinders_.begin() + static_cast<std::ptrdiff_t>(brackets_.back().cylinders), cylinders_.end());
+  cylinders_.shrink(brackets_.back().cylinders);
   brackets_.pop_back();
 }
 

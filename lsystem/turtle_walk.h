@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "lsystem/foliage_collector.h"
-#include "lsystem/generalized_cylinder.h"
 #include "lsystem/growth_parts.h"
 #include "lsystem/lsystem.h"
+#include "lsystem/open_cylinders.h"
 #include "lsystem/skeleton_pen.h"
 #include "lsystem/turtle.h"
 #include "lsystem/turtle_actions.h"
@@ -48,7 +48,7 @@ class TurtleWalk {
     std::uint32_t color = 0;
     double tangent_in = 1.2, tangent_out = 1.2;  // of generalized cylinders
     double contour = 1;                          // its radius, of the line's
-    std::int32_t cylinder = -1;                  // of cylinders_, in which the turtle is; -1: none
+    OpenCylinders::Number cylinder = OpenCylinders::kNone;
     int turns = 0;  // since the frame was last repaired
   };
   struct Bracket {
@@ -59,13 +59,6 @@ class TurtleWalk {
   struct Outline {
     FoliageCollector::Site site;
     std::vector<Vec3> corners;
-  };
-
-  struct Cylinder {
-    GeneralizedCylinder axis;
-    SkeletonPen::Place pen;
-    std::size_t depth;      // in brackets
-    bool steps_are_points;  // F and f end in control points
   };
 
   std::size_t count() const { return string_.first[index_ + 1] - string_.first[index_]; }
@@ -95,6 +88,7 @@ class TurtleWalk {
   FoliageCollector::Site site() const;
   void note(FoliageCollector::Outcome outcome);
   void open_brace();
+  void open_outline();
   void close_brace();
   void close_outline();
   void corner();
@@ -102,11 +96,10 @@ class TurtleWalk {
   void drop_outlines(std::size_t kept);
   void surface();
   double diameter() const;
-  bool in_cylinder() const;
-  const Cylinder& cylinder() const { return cylinders_[static_cast<std::size_t>(state_.cylinder)]; }
+  bool in_cylinder() const { return cylinders_.hold(state_.cylinder, brackets_.size()); }
   void open_cylinder(GeneralizedCylinder axis, bool steps_are_points);
-  Cylinder& own_cylinder();
-  void draw_stretch(Cylinder& cylinder, const AxisStretch& stretch);
+  OpenCylinder& own_cylinder();
+  void draw_stretch(OpenCylinder& cylinder, const AxisStretch& stretch);
   ControlPoint control_point(const State& state) const;
   void pass_control_point();
   void tie_to_cylinder();
@@ -139,7 +132,7 @@ class TurtleWalk {
   SkeletonPen pen_;
   FoliageCollector foliage_;
   std::vector<Outline> outlines_;      // that are open; brackets do not close them
-  std::vector<Cylinder> cylinders_;    // that are open, one for each bracket in which they went on
+  OpenCylinders cylinders_;
   double scale_ = 1;                   // of lengths, by the sub-L-systems around
   std::vector<double> callers_;        // their callers' scales
   std::vector<Bracket> brackets_;

@@ -61,6 +61,12 @@ TEST(TurtleWalk, AnOpenOutlineEndsWithItsBranch) {
   EXPECT_TRUE(result.foliage.organs.empty());
 }
 
+TEST(TurtleWalk, OutlinesAreNotNestedWithoutEnd) {
+  const LSystem system = test::parsed(test::grammar("A", "A --> AA\nhomomorphism\nA --> {"));
+  EXPECT_EQ(interpret(test::derived(system, 16), system, {}, {})->skipped.at("{"), 65536u);
+  EXPECT_THROW(interpret(test::derived(system, 17), system, {}, {}), InputError);
+}
+
 TEST(TurtleWalk, OutlinesWithoutAnAreaAreLeftOut) {
   EXPECT_EQ(turtled("{}{.}{.F|F}}").skipped.at("}"), 4u);
 }
