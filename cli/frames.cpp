@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "cli/output_file.h"
+#include "cli/units.h"
 #include "lsystem/growth.h"
+#include "raytrace/framing.h"
 
 namespace cambium {
 namespace {
@@ -71,33 +74,47 @@ class GrowingPlant {
   Growth growth_;
 };
 
-Box bounds_of(const Plant& plant) {
-  Box box;
-  for (const SkeletonNode& node : plant.skeleton.nodes) box.extend(Box{node.position, node.position}.padded(node.radius));
+/// Of every internode and organ.
+std::vector<Box> boxes_of(const Plant& plant) {
+  std::vector<Box> boxes;
+  const std::vector<SkeletonNode>& nodes = plant.skeleton.nodes;
+  for (const SkeletonNode& node : nodes) {
+    Box box{node.position, node.position};
+    if (node.parent >= 0) box.extend(nodes[static_cast<std::size_t>(node.parent)].position);
+    boxes.push_back(box.padded(node.radius));
+  }
   for (const OrganPlacement& organ : plant.foliage.organs) {
     double reach = 0;
     for (const Vec3& vertex : plant.foliage.shapes[organ.shape].vertices) reach = std::max(reach, glm::length(vertex));
-    box.extend(Box{organ.position, organ.position}.padded(reach * organ.scale));
+    boxes.push_back(Box{organ.position, organ.position}.padded(reach * organ.scale));
   }
-  return box;
+  return boxes;
 }
 
-/// What all pictures share: what the camera takes in, and where the ground is.
+/// What all pictures share: the camera's place, and where the ground is.
 struct Stage {
-  Box framed;
+  Vec3 eye{0.0}, target{0.0};
   double ground = 0;
 };
 
-/// nullopt of a plant without wood.
-std::optional<Stage> stage_for(const Plant& plant) {
-  if (plant.skeleton.nodes.empty()) return std::nullopt;
-  Stage stage{bounds_of(plant), kInfinity};
+/// For a plant with wood in pictures of the job's size.
+Stage stage_for(const Plant& plant, const Job& job) {
+  const RenderRecipe& render = job.recipe.render;
+  auto [width, height] = std::pair(render.width, render.height);
+  if (!job.line.size.empty()) std::tie(width, height) = parse_image_size(job.line.size, {"--size"});
+  const std::vector<Box> boxes = boxes_of(plant);
+  const View view = frame(render.camera, boxes, width, height);
+  Box whole;
+  for (const Box& box : boxes) whole.extend(box);
+  const double distance = std::max(glm::dot(whole.center() - view.eye, view.forward), glm::length(whole.size()) * 1e-3);
+  Stage stage{view.eye, view.eye + distance * view.forward, kInfinity};
   for (const SkeletonNode& node : plant.skeleton.nodes) stage.ground = std::min(stage.ground, node.position.z);
   return stage;
 }
 
 void set_stage(const Stage& stage, RenderRecipe& render) {
-  if (!render.camera.frame) render.camera.frame = stage.framed;
+  render.camera.eye = stage.eye;
+  render.camera.target = stage.target;
   if (!render.light.ground_height) render.light.ground_height = stage.ground;
 }
 
@@ -133,7 +150,7 @@ Outcome run_frames(Job& job, Outcome (*command)(Job&)) {
   if (job.line.command == Command::kRender) {
     const auto last = growing.at(growing.steps());
     if (!last) return Outcome::kInterrupted;
-    stage = stage_for(*last);
+    if (!last->skeleton.nodes.empty()) stage = stage_for(*last, job);
   }
   Json made = Json::array();
   std::size_t left_out = 0;

@@ -42,7 +42,7 @@ class Translator {
   Translator(Cursor& in, const PythonNames& names) : in_(in), names_(names) {}
 
   MarkedText expression() {
-    if (++nesting_ > kMaxNesting) in_.fail_at(in_.position(), "nesting deeper than 60", "a simpler expression");
+    const Nesting nesting(*this);
     MarkedText value = disjunction();
     const Place place = head();
     if (accept_word("if")) {
@@ -52,11 +52,24 @@ class Translator {
       const MarkedText otherwise = expression();
       value = join(place, {"(", &condition, "?", &value, ":", &otherwise, ")"});
     }
-    --nesting_;
     return value;
   }
 
  private:
+  /// One level deeper into the text.
+  class Nesting {
+   public:
+    explicit Nesting(Translator& of) : of_(of) {
+      if (++of_.nesting_ > kMaxNesting) of_.in_.fail_at(of_.in_.position(), "nesting deeper than 60", "a simpler expression");
+    }
+    ~Nesting() { --of_.nesting_; }
+    Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
+
+   private:
+    Translator& of_;
+  };
+
   /// A piece of an expression: either text or an expression.
   struct Piece {
     Piece(const char* words) : text(words) {}
@@ -110,9 +123,8 @@ class Translator {
   MarkedText negation() {
     const Place place = head();
     if (!accept_word("not")) return comparison();
-    if (++nesting_ > kMaxNesting) in_.fail_at(in_.position(), "nesting deeper than 60", "a simpler expression");
+    const Nesting nesting(*this);
     const MarkedText operand = negation();
-    --nesting_;
     return join(place, {"(!", &operand, ")"});
   }
 
@@ -173,9 +185,8 @@ class Translator {
     const char c = in_.peek();
     if ((c != '-' && c != '+') || at_arrow()) return power();
     in_.advance();
-    if (++nesting_ > kMaxNesting) in_.fail_at(in_.position(), "nesting deeper than 60", "a simpler expression");
+    const Nesting nesting(*this);
     const MarkedText operand = signed_value();
-    --nesting_;
     return c == '-' ? join(place, {"(-", &operand, ")"}) : operand;
   }
 
@@ -184,9 +195,8 @@ class Translator {
     const Place place = head();
     if (!in_.looking_at("**")) return base;
     in_.advance(2);
-    if (++nesting_ > kMaxNesting) in_.fail_at(in_.position(), "nesting deeper than 60", "a simpler expression");
+    const Nesting nesting(*this);
     const MarkedText exponent = signed_value();
-    --nesting_;
     return join(place, {"(", &base, "^", &exponent, ")"});
   }
 

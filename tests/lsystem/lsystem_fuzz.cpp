@@ -3,6 +3,7 @@
 // Also part of the tests, which replay corpus/.
 #include "lsystem/contour_file.h"
 #include "lsystem/curve.h"
+#include "lsystem/growth.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/patch_surface.h"
 #include "lsystem/view_file.h"
@@ -63,6 +64,9 @@ void derive_and_draw(std::string_view text) {
   if (const auto step = explain_step(system, options, run)) to_text(*step);
   TurtleOptions turtle;
   turtle.max_modules = 3000;
+  options.turtle = turtle;
+  Growth growth(system, options, run);
+  if (const auto grown = growth.at(2.5)) interpret(*grown, system, turtle, run);
   if (!run.cancelled()) interpret(*string, system, turtle, run);
 }
 
