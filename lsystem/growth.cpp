@@ -1,6 +1,6 @@
 #include "lsystem/growth.h"
 
-#include <cmath>
+#include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -19,14 +19,14 @@ bool same_kind(const Modules& a, std::size_t i, const Modules& b, std::size_t j)
   return a.symbol[i] == b.symbol[j] && a.arity(i) == b.arity(j);
 }
 
-/// Which of the modules [begin, end), made of one, continues it; `end` if none does.
+/// Which of the modules [begin, end), made of `parent`, continues it; `end` if none does. `heirs`: those of others.
 std::size_t continuing(const Modules& before, std::size_t parent, const Modules& after, std::size_t begin, std::size_t end,
-                       const LSystemProgram& program) {
+                       const std::vector<std::uint32_t>& heirs, const LSystemProgram& program) {
   std::size_t first = end;
   int depth = 0;
   for (std::size_t i = begin; i < end; ++i) {
     if (after.symbol[i] == program.close) --depth;
-    if (same_kind(before, parent, after, i)) {
+    if (heirs[i] == kNothing && same_kind(before, parent, after, i)) {
       if (depth <= 0) return i;
       if (first == end) first = i;
     }
@@ -43,8 +43,11 @@ std::vector<std::uint32_t> predecessors(const Modules& before, const Modules& af
     const std::uint32_t parent = origins[begin].parent;
     std::size_t end = begin + 1;
     while (end < after.size() && origins[end].parent == parent) ++end;
-    const std::size_t heir = continuing(before, parent, after, begin, end, program);
-    if (heir < end) out[heir] = parent;
+    const std::size_t parents = origins[begin].rule ? origins[begin].rule->predecessor.size() : 1;
+    for (std::size_t p = parent; p < std::min(parent + parents, before.size()); ++p) {
+      const std::size_t heir = continuing(before, p, after, begin, end, out, program);
+      if (heir < end) out[heir] = static_cast<std::uint32_t>(p);
+    }
     begin = end;
   }
   return out;

@@ -121,6 +121,11 @@ TEST(Growth, TheHeirOfAModuleIsTheOneOutsideOfBrackets) {
   EXPECT_EQ(to_text(sideways.string(0.25).string), "[A(6)][A(4)]B");
 }
 
+TEST(Growth, EveryModuleOfALongPredecessorHasItsHeir) {
+  Grown grown(test::grammar("A(0)B(0)B(8)", "A(x)B(y) --> A(x+1)CB(y+2)"), 1);
+  EXPECT_EQ(to_text(grown.string(0.5).string), "A(0.5)CB(1)B(8)");
+}
+
 TEST(Growth, ATurnUnderOldWoodComesWithTheStep) {
   Grown grown(test::grammar("AF(1)", "A --> +(40)A"), 1);
   const auto& nodes = grown.plant(0.5).skeleton.nodes;
