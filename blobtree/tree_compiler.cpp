@@ -6,6 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -50,6 +51,20 @@ class TreeCompiler {
       tree_.children.push_back(child);
       parent_[child] = id;
     }
+    if (node(id).op == Op::kIntersection) cut_by_half_spaces(node(id));
+  }
+
+  /// A solid's intersection with half-spaces is what is left of it when their other sides are taken away. Where no plane is near these
+  /// are 0: a tape is made there without them, as a half-space that is 1 would not be.
+  void cut_by_half_spaces(CompiledNode& n) {
+    const auto is_solid = [&](NodeId child) { return node(child).op != Op::kHalfSpace; };
+    const std::span<NodeId> parts = std::span(tree_.children).subspan(n.first_child, n.child_count);
+    if (parts.size() < 2 || std::ranges::count_if(parts, is_solid) != 1) return;
+    for (const NodeId plane : std::ranges::stable_partition(parts, is_solid)) {
+      Vec3& normal = tree_.half_spaces[node(plane).payload].normal;
+      normal = -normal;
+    }
+    n.op = Op::kDifference;
   }
 
   void set_range(NodeId id) {
