@@ -10,11 +10,25 @@
 namespace cambium {
 namespace {
 
-struct TapeAndTree {
-  TapeAndTree(std::shared_ptr<const CompiledTree> of, const Tape& made) : tree(std::move(of)), tape(made) {}
-  std::shared_ptr<const CompiledTree> tree;
+/// A tape, and what keeps its tree.
+struct KeptTape {
+  KeptTape(std::shared_ptr<const void> of, const Tape& made) : tree(std::move(of)), tape(made) {}
+  std::shared_ptr<const void> tree;
   OwnedTape tape;
 };
+
+/// Ascending.
+std::vector<std::uint32_t> atoms_of(const Tape& tape) {
+  std::vector<std::uint32_t> atoms;
+  atoms.reserve(tape.atom_count());
+  for (const Instruction& in : tape.instructions()) {
+    if (in.op == Op::kPrimitive || in.op == Op::kHalfSpace) atoms.push_back(in.first);
+    if (in.op != Op::kChain) continue;
+    const auto segments = tape.slots().subspan(in.first, in.count);
+    atoms.insert(atoms.end(), segments.begin(), segments.end());
+  }
+  return atoms;
+}
 
 }  // namespace
 
@@ -26,7 +40,17 @@ bool PrunedField::empty() const { return !tape_ || tape_->empty(); }
 std::size_t PrunedField::atom_count() const { return tape_ ? tape_->atom_count() : 0; }
 double PrunedField::smallest_radius() const { return tape_ ? tape_->smallest_radius() : kInfinity; }
 std::size_t PrunedField::memory_bytes() const {
-  return sizeof(*this) + (tape_ ? sizeof(TapeAndTree) + tape_->array_bytes() : 0);
+  return sizeof(*this) + (tape_ ? sizeof(KeptTape) + tape_->array_bytes() : 0);
+}
+
+PrunedField PrunedField::narrowed(const Box& part) const {
+  if (empty()) return *this;
+  ActiveAtoms active;
+  find_active(*tree_, atoms_of(*tape_), part, active);
+  if (active.size() == tape_->atom_count()) return PrunedField(*tree_, *tape_, owner_, part);
+  TapeBuilder builder(*tree_);
+  const auto kept = std::make_shared<const KeptTape>(owner_, builder.build(active.atoms));
+  return PrunedField(*tree_, kept->tape.tape(), kept, part);
 }
 
 Field::Field(const BlobTree& tree) : tree_(std::make_shared<const CompiledTree>(compile(tree))) {}
@@ -52,7 +76,7 @@ ActiveSet Field::narrow(const ActiveSet& from, const Box& box) const {
 
 PrunedField Field::prune(const ActiveSet& active, const Box& box) const {
   TapeBuilder builder(*tree_);
-  const auto owned = std::make_shared<const TapeAndTree>(tree_, builder.build(active.atoms));
+  const auto owned = std::make_shared<const KeptTape>(tree_, builder.build(active.atoms));
   return PrunedField(*tree_, owned->tape.tape(), owned, box);
 }
 PrunedField Field::prune(const Box& box) const { return prune(active(box), box); }

@@ -70,6 +70,8 @@ class PrunedField {
   std::size_t memory_bytes() const;                ///< what it holds beside the Field; neighbouring cells of a cover share it
   /// The smallest surface radius of an active primitive, metres (infinite if none has one).
   double smallest_radius() const;
+  /// The same field in a part of its box, with what is active there. Cost: linear in atom_count().
+  PrunedField narrowed(const Box& part) const;
 
  private:
   friend class Field;

@@ -19,12 +19,14 @@ constexpr double kFar = 1.8;               // from the polygons, in tolerances: 
 constexpr double kFinest = 0.5;            // the smallest cubes, in tolerances, or down to half of that
 constexpr double kMostCubes = 8;           // of one leaf, for each of the smallest on a face: bounds of warped fields tell little
 constexpr std::size_t kLeavesPerTask = 64;
+constexpr int kRegionLevels = 2;           // above a leaf: what is active in so much of its cell is found anew
+constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 using PlacedPolygons = MissedSurface::PlacedPolygons;
 
 struct Cube {
   CellPlace place;
-  int level;
+  int level = 0;
 };
 
 Cube part_of(const Cube& cube, std::uint32_t child) {
@@ -156,7 +158,8 @@ class MissedSurface::Search {
 
   void look_through(std::uint32_t leaf, Found& found) {
     const OctreeLeaf& l = tree_.leaves()[leaf];
-    field_ = cover_.cube_field(l.cell);
+    enter_region_of(l);
+    if (only_blends_) return;
     const Box box = tree_.box(l);
     if (l.uniform() ? is_bare(box) : falls_throughout(circumscribed_ball(box))) return;
     polygons_.gather(box.padded(2 * tolerance_));
@@ -168,6 +171,20 @@ class MissedSurface::Search {
   }
 
  private:
+  /// Leaves come in the order of the octree, mostly: those of one region share a field.
+  void enter_region_of(const OctreeLeaf& leaf) {
+    const int level = leaf.level + kRegionLevels;
+    CellPlace place = leaf.place;
+    for (std::uint32_t& along : place) along = along >> level << level;
+    if (leaf.cell == cell_ && place == region_.place && level == region_.level) return;
+    cell_ = leaf.cell;
+    region_ = {place, level};
+    const PrunedField whole = cover_.cube_field(leaf.cell);
+    const Box around = tree_.grid().box(place, level).padded(tree_.edge(leaf));
+    field_ = whole.narrowed(Box::intersection(around, whole.box()));
+    only_blends_ = ActiveChain::only_blend(field_);
+  }
+
   bool is_bare(const Box& box) { return !evaluator_.interval(field_, box).contains(kIso); }
 
   Vec3 uphill(const Vec3& p) {
@@ -272,7 +289,10 @@ class MissedSurface::Search {
   double tolerance_;
   const RunOptions& run_;
   Evaluator evaluator_;
-  PrunedField field_;
+  std::uint32_t cell_ = kNoCell;
+  Cube region_{};
+  PrunedField field_;   // of the cell in the region and a little around it
+  bool only_blends_ = false;
   int finest_ = 0;
   int cubes_ = 0, most_cubes_ = 0;
   std::vector<Vec3> places_;
