@@ -44,6 +44,12 @@ SquaredRatio between(double lo, double hi, double fastest) {
   return {value, {-steepest, steepest}};
 }
 
+/// The slope where the velocity is not quite that in the middle: the gradient is at most 2 hi times that of the ratio.
+SquaredRatio turned(SquaredRatio y, double gradient, double turn) {
+  const double more = 2 * std::sqrt(y.value.hi) * (1 + 1e-12) * gradient * turn;
+  return {y.value, {y.slope.lo - more, y.slope.hi + more}};
+}
+
 double least_radius(const SweptSegment<double>& k) { return std::min(k.radius_at(k.begin), k.radius_at(k.end)); }
 
 SeenSegment seen(const SweptSegment<double>& k, const Way& way) {
@@ -64,7 +70,7 @@ SquaredRatio squared_ratio(const SeenSegment& seen, const Way& way) {
   } else {
     const double x_hi = seen.x + seen.change, sine = x_hi * std::abs(k.slope);
     if (sine > kSteepestTaper) {
-      return between((seen.x - seen.change) * kRadiusPerSupport, x_hi * kRadiusPerSupport, way.speed * kRadiusPerSupport / seen.least);
+      return between((seen.x - seen.change) * kRadiusPerSupport, x_hi * kRadiusPerSupport, way.fastest() * kRadiusPerSupport / seen.least);
     }
     // The nearest axis point moves by at most 1 + tan^2(phi) < 2 of the way.
     const double change = 2 * reach * std::abs(k.slope);
@@ -77,7 +83,7 @@ SquaredRatio squared_ratio(const SeenSegment& seen, const Way& way) {
   SquaredRatio y = along_parabola(seen.x * seen.x * kSquaredRadiusPerSupport, 2 * per_square * glm::dot(seen.v, way.velocity), bend_lo,
                                   bend_hi, way.half);
   if (way.wide) y.value = square((seen.x - seen.change) * kRadiusPerSupport, (seen.x + seen.change) * kRadiusPerSupport);
-  return y;
+  return turned(y, kRadiusPerSupport / seen.least, way.turn);
 }
 
 /// Whether its support surely passes the ball.
@@ -121,14 +127,14 @@ SquaredRatio squared_ratio(const CompiledPrimitive& p, const Way& way) {
         const Distance<double> d = distance(shape, way.straight ? way.middle : way.ball.center);
         if (!way.straight || !kIsConvex<std::decay_t<decltype(shape)>>) {
           const double reach = way.straight ? way.half * way.speed : way.ball.radius;
-          return between((d.value - reach) * inverse, (d.value + reach) * inverse, way.speed * inverse);
+          return between((d.value - reach) * inverse, (d.value + reach) * inverse, way.fastest() * inverse);
         }
         const double per_square = inverse * inverse;
         SquaredRatio y = along_parabola(d.value * d.value * per_square, 2 * d.value * glm::dot(d.gradient, way.velocity) * per_square, 0,
                                         2 * per_square * way.speed * way.speed, way.half);
         const double reach = way.half * way.speed;
         if (way.wide) y.value = square((d.value - reach) * inverse, (d.value + reach) * inverse);
-        return y;
+        return turned(y, inverse, way.turn);
       },
       p.shape);
 }
@@ -145,11 +151,11 @@ class CoursePolicy {
     const CompiledHalfSpace& h = view_.tree.half_spaces[view_.tree.nodes[in.node].payload];
     const Way& way = at_.ways[in.frame];
     const Interval value = half_space_interval(h, way.ball);
-    const double steepest = way.speed / (2 * h.width);
+    const double steepest = way.fastest() / (2 * h.width);
     if (!way.straight) return {value, {-steepest, steepest}};
-    const double ramp = glm::dot(way.velocity, h.normal) / (-2 * h.width);
-    if (value.lo > 0 && value.hi < 1) return {value, {ramp, ramp}};
-    return {value, {std::min(0.0, ramp), std::max(0.0, ramp)}};
+    const double ramp = glm::dot(way.velocity, h.normal) / (-2 * h.width), more = way.turn / (2 * h.width);
+    if (value.lo > 0 && value.hi < 1) return {value, {ramp - more, ramp + more}};
+    return {value, {std::min(0.0, ramp - more), std::max(0.0, ramp + more)}};
   }
   /// The nearest of its segments counts: those that may be it.
   Course chain(const Instruction& in) const {
@@ -169,7 +175,7 @@ class CoursePolicy {
     } else {
       for (const SweptSegment<double>& segment : segments) {
         const Interval x = swept_ratio_interval(segment, way.ball);
-        at_.ratios.push_back(between(x.lo * kRadiusPerSupport, x.hi * kRadiusPerSupport, way.speed * kRadiusPerSupport / least_radius(segment)));
+        at_.ratios.push_back(between(x.lo * kRadiusPerSupport, x.hi * kRadiusPerSupport, way.fastest() * kRadiusPerSupport / least_radius(segment)));
       }
     }
     return nearest_course(at_.ratios, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
@@ -181,12 +187,13 @@ class CoursePolicy {
     const double per_softness = 0.5 / lateral.softness, per_reach = 1 / lateral.reach;
     const Vec3 from = way.ball.center - lateral.point;
     const double away = glm::length(from), reach = way.ball.radius;
-    Interval crotch_slope{-way.speed * per_softness, way.speed * per_softness}, away_slope{-way.speed * per_reach, way.speed * per_reach};
+    const double fastest = way.fastest();
+    Interval crotch_slope{-fastest * per_softness, fastest * per_softness}, away_slope{-fastest * per_reach, fastest * per_reach};
     if (way.straight) {
-      const double u = glm::dot(way.velocity, lateral.direction) * per_softness;
-      crotch_slope = {u, u};
+      const double u = glm::dot(way.velocity, lateral.direction);
+      crotch_slope = {(u - way.turn) * per_softness, (u + way.turn) * per_softness};
       if (away > reach) {
-        const double middle = glm::dot(from, way.velocity) / away, change = way.half * way.speed * way.speed / (away - reach);
+        const double middle = glm::dot(from, way.velocity) / away, change = way.half * way.speed * way.speed / (away - reach) + way.turn;
         away_slope = {std::max(away_slope.lo, (middle - change) * per_reach), std::min(away_slope.hi, (middle + change) * per_reach)};
       }
     }
@@ -241,14 +248,21 @@ Way inside(const Warp& warp, const Way& outside) {
   way.ball = ball.ball;
   way.certain = outside.certain && ball.certain;
   const auto* const rigid = std::get_if<RigidWarp>(&warp);
-  way.straight = outside.straight && rigid;
-  way.wide = outside.wide;
+  const auto* const bend = std::get_if<BendWarp>(&warp);
+  const double stretch = outside.ball.radius > 0 ? ball.ball.radius / outside.ball.radius : kInfinity;
+  way.straight = outside.straight && (rigid || (bend && way.certain && outside.ball.radius > 0));
+  way.wide = outside.wide || bend;
   if (way.straight) {
     way.middle = unwarp(warp, outside.middle);
-    way.velocity = (outside.velocity * rigid->axes) / rigid->scale;
+    way.velocity = rigid ? (outside.velocity * rigid->axes) / rigid->scale : push_forward(*bend, outside.middle, outside.velocity);
     way.speed = glm::length(way.velocity);
+    way.turn = stretch * outside.turn;
+    if (bend) {
+      way.turn += turn_in(*bend, outside.ball, outside.velocity);
+      way.half = way.ball.radius / way.speed;
+    }
   } else {
-    way.speed = outside.speed == 0 ? 0 : outside.ball.radius > 0 ? outside.speed * ball.ball.radius / outside.ball.radius : kInfinity;
+    way.speed = outside.fastest() == 0 ? 0 : outside.fastest() * stretch;
   }
   return way;
 }

@@ -13,15 +13,18 @@
 namespace cambium {
 
 /// The way through one frame's space. Where all warps outside are rigid it is straight: from middle - half velocity to
-/// middle + half velocity. Else all that is known is a ball that holds it, and how fast it goes at most.
+/// middle + half velocity. Inside a bend it is nearly so: all that is known then is the ball that holds it, and how far its velocity may
+/// be from that in the middle. Else not even that, but how fast it goes at most.
 struct Way {
-  Vec3 middle{0.0}, velocity{0.0};   ///< the latter by metres in the world
-  double half = 0;                   ///< metres in the world
-  bool straight = true;
-  bool wide = false;       ///< also all ways parallel to it in the ball
+  Vec3 middle{0.0}, velocity{0.0};   ///< the latter by metres in the world, in the middle
+  double half = 0;                   ///< metres in the world; half speed is at most as far as the way goes from its middle
+  double turn = 0;                   ///< |velocity anywhere - velocity| at most
+  bool straight = true;              ///< or nearly so: all but ball, speed and certain is known
+  bool wide = false;                 ///< also all ways parallel to it in the ball
   Ball ball;
-  double speed = 1;                  ///< |velocity| at most
+  double speed = 1;                  ///< |velocity| in the middle; at most, where it is not straight
   bool certain = true;               ///< as UnwarpedBall's
+  double fastest() const { return speed + turn; }
 };
 
 /// The square of a distance over its support radius, along a way, with its slope: both smooth but for where a segment's nearest

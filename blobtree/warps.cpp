@@ -117,12 +117,20 @@ Vec3 unwarp(const Warp& warp, const Vec3& p) {
 
 static Vec3 pull_back_one(const RigidWarp& w, const Vec3&, const Vec3& g) { return (w.axes * g) / w.scale; }
 
-static Vec3 pull_back_one(const BendWarp& w, const Vec3& p, const Vec3& g) {
+/// What a bend is at a point: it turns the child's axes to these, and is so much longer along the first of them.
+struct LocalBend {
+  Vec3 tangent, radial;
+  double stretch;   // of W^-1
+};
+static LocalBend local_bend(const BendWarp& w, const Vec3& p) {
   const Polar q = polar(w, p);
-  const double half = w.angle / 2;
-  const double phi = std::clamp(q.phi, -half, half);
-  const double stretch = std::abs(q.phi) <= half && q.r > 0 ? w.rho / q.r : 1.0;
-  return glm::dot(g, w.u) * stretch * tangent(w, phi) + glm::dot(g, w.d) * radial(w, phi) + glm::dot(g, w.n) * w.n;
+  const double half = w.angle / 2, phi = std::clamp(q.phi, -half, half);
+  return {tangent(w, phi), radial(w, phi), std::abs(q.phi) <= half && q.r > 0 ? w.rho / q.r : 1.0};
+}
+
+static Vec3 pull_back_one(const BendWarp& w, const Vec3& p, const Vec3& g) {
+  const LocalBend at = local_bend(w, p);
+  return glm::dot(g, w.u) * at.stretch * at.tangent + glm::dot(g, w.d) * at.radial + glm::dot(g, w.n) * w.n;
 }
 
 static Vec3 pull_back_one(const TwistWarp& w, const Vec3& p, const Vec3& g) {
@@ -145,6 +153,27 @@ static Vec3 pull_back_one(const TaperWarp& w, const Vec3& p, const Vec3& g) {
 
 Vec3 pull_back(const Warp& warp, const Vec3& p, const Vec3& g) {
   return std::visit([&](const auto& w) { return pull_back_one(w, p, g); }, warp);
+}
+
+Vec3 push_forward(const BendWarp& w, const Vec3& p, const Vec3& v) {
+  const LocalBend at = local_bend(w, p);
+  return glm::dot(v, at.tangent) * at.stretch * w.u + glm::dot(v, at.radial) * w.d + glm::dot(v, w.n) * w.n;
+}
+
+// The axes turn with phi, which is clamped, so by no more than the ball is wide from the arc's centre; and the stretch changes: outside of
+// the arc it is 1.
+double turn_in(const BendWarp& w, const Ball& ball, const Vec3& v) {
+  const Polar q = polar(w, ball.center);
+  const LocalBend at = local_bend(w, ball.center);
+  if (!(q.r > ball.radius)) return kInfinity;
+  const double half = w.angle / 2, widest = std::asin(ball.radius / q.r), from_end = std::abs(q.phi) - half;
+  if (from_end > widest) return 0;
+  Interval stretch{w.rho / (q.r + ball.radius), w.rho / (q.r - ball.radius)};
+  if (from_end >= -widest) stretch = {std::min(stretch.lo, 1.0), std::max(stretch.hi, 1.0)};
+  const double along = glm::dot(v, at.tangent), across = glm::dot(v, at.radial);
+  const double change = std::max(stretch.hi - at.stretch, at.stretch - stretch.lo);
+  const double turned = 2 * std::sin(0.5 * widest) * std::hypot(along, across) * std::max(1.0, stretch.hi);
+  return (turned + change * std::abs(along)) * (1 + 1e-9);
 }
 
 // ---- balls --------------------------------------------------------------------------------------------------------

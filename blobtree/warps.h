@@ -47,6 +47,12 @@ Vec3 unwarp(const Warp& warp, const Vec3& p);
 /// Gradient at p from the child's gradient g at unwarp(p): the transposed Jacobian of W^-1.
 Vec3 pull_back(const Warp& warp, const Vec3& p, const Vec3& g);
 
+/// What a bend makes of a velocity at p: the Jacobian of W^-1 times it.
+Vec3 push_forward(const BendWarp& bend, const Vec3& p, const Vec3& velocity);
+/// How far what a bend makes of one velocity anywhere in a ball may be from what it makes of it at the centre. The ball is one of whose
+/// image unwarp() is certain.
+double turn_in(const BendWarp& bend, const Ball& ball, const Vec3& velocity);
+
 /// A ball that contains the image of the ball under W^-1. certain = false: no such ball is known, or the child's support does not
 /// cover all of it, so that any value the child takes anywhere (or 0) is possible.
 struct UnwarpedBall {
