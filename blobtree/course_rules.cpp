@@ -53,6 +53,9 @@ Interval slope_of_smallest(const Course* f, std::size_t n, bool with_zero, doubl
   return slope;
 }
 
+/// What is the same all over has no slope, whatever its children's are.
+Course unless_constant(const Interval& value, const Interval& slope) { return {value, value.lo == value.hi ? Interval{0, 0} : slope}; }
+
 /// Where two children of a contact are inside, nobody pushes.
 bool may_both_be_inside(const Course& a, const Course& b) { return a.value.hi >= kIso && b.value.hi >= kIso; }
 
@@ -61,6 +64,44 @@ Interval pushed_slope(const Course& leads, const Course& pushes, double width, d
   Interval by_push = contact_push_slope(pushes.value, width, lip);
   if (may_both_be_inside(leads, pushes)) by_push = hull(by_push, {0, 0});
   return leads.slope + by_push * pushes.slope;
+}
+
+/// The mean of a quantity of laterals, of each as much as it is above 0; at least one may be. At both its ends those beyond some one of
+/// them are as much as they can be and the others as little.
+template <class Quantity>
+Interval mean_of(const Course* f, std::size_t n, const Quantity& of) {
+  Interval mean = kNothing;
+  for (std::size_t turn = 0; turn < n; ++turn) {
+    if (!(f[turn].value.hi > 0)) continue;
+    double low = 0, low_weight = 0, high = 0, high_weight = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!(f[k].value.hi > 0)) continue;
+      const double least = std::max(0.0, f[k].value.lo), most = f[k].value.hi;
+      const double in_low = of(k).lo <= of(turn).lo ? most : least, in_high = of(k).hi >= of(turn).hi ? most : least;
+      low += in_low * of(k).lo, low_weight += in_low;
+      high += in_high * of(k).hi, high_weight += in_high;
+    }
+    mean = hull(mean, {low / low_weight, high / high_weight});
+  }
+  return mean;
+}
+
+/// How fast the share of a fork's laterals moves with what each of them has of their sum, times that sum: the sum over pairs of
+/// (w_k - w_j) (f_k' p_j - f_j' p_k), p the part that one has.
+double share_moves(const Course* f, const Course* weights, std::size_t n, double total_lo) {
+  double moves = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(f[k].value.hi > 0)) continue;
+    double farthest = 0, away = 0;   // the share from the weight of this one
+    for (std::size_t j = 0; j < n; ++j) {
+      if (j == k || !(f[j].value.hi > 0)) continue;
+      const double apart = std::max(weights[k].value.hi - weights[j].value.lo, weights[j].value.hi - weights[k].value.lo);
+      farthest = std::max(farthest, apart);
+      away += apart * f[j].value.hi / (f[j].value.hi + total_lo - std::max(0.0, f[j].value.lo));
+    }
+    moves += times(std::max(std::abs(f[k].slope.lo), std::abs(f[k].slope.hi)), std::min(farthest, away));
+  }
+  return moves;
 }
 
 }  // namespace
@@ -104,12 +145,12 @@ Course sum_of(const Course* f, std::size_t n) {
 
 Course max_of(const Course* f, std::size_t n, bool with_zero) {
   const Interval value = max_of(Values(f, n).get(), n, with_zero);
-  return {value, slope_of_largest(f, n, with_zero, value.lo)};
+  return unless_constant(value, slope_of_largest(f, n, with_zero, value.lo));
 }
 
 Course min_of(const Course* f, std::size_t n, bool with_zero) {
   const Interval value = min_of(Values(f, n).get(), n, with_zero);
-  return {value, slope_of_smallest(f, n, with_zero, value.hi)};
+  return unless_constant(value, slope_of_smallest(f, n, with_zero, value.hi));
 }
 
 Course difference_of(const Course& first, const Course* taken, std::size_t n, bool capped) {
@@ -118,7 +159,7 @@ Course difference_of(const Course& first, const Course* taken, std::size_t n, bo
   for (std::size_t i = 0; i < n; ++i)
     if (1 - taken[i].value.hi <= value.hi) slope = hull(slope, {-taken[i].slope.hi, -taken[i].slope.lo});
   if (capped && value.hi >= 1) slope = hull(slope, {0, 0});
-  return {value, slope};
+  return unless_constant(value, slope);
 }
 
 // dF = sum of (f_i / F)^(e - 1) df_i, over those above 0.
@@ -165,17 +206,16 @@ Course contact_of(const Course* f, std::size_t n, bool with_zero, double width, 
 // With s the share, J the joined laterals, t = contact(a+, J) + a- and m = a + J:
 // f = (1 - s) m + s t, df = (1 - s) dm + s dt + (t - m) ds, and -min(a+, J) <= t - m <= 0 where J >= 0.
 Course fork_of(const Course& axis, const Course* f, const Course* weights, std::size_t n, bool with_zero, double width, double lip) {
-  Interval share = kNothing, share_slope = kNothing;
   double total_lo = 0;
-  bool any_may_be_bare = true;
+  bool any_may_be_bare = true, any = false;
   for (std::size_t k = 0; k < n; ++k) {
     if (f[k].value.lo > 0) any_may_be_bare = false;
+    if (f[k].value.hi > 0) any = true;
     total_lo += std::max(0.0, f[k].value.lo);
-    if (!(f[k].value.hi > 0)) continue;
-    share = hull(share, weights[k].value);
-    share_slope = hull(share_slope, weights[k].slope);
   }
-  if (share.hi < share.lo) return axis;   // no lateral is here
+  if (!any) return axis;   // no lateral is here
+  const Interval share = mean_of(f, n, [&](std::size_t k) -> const Interval& { return weights[k].value; });
+  const Interval share_slope = mean_of(f, n, [&](std::size_t k) -> const Interval& { return weights[k].slope; });
   const Course joined = contact_of(f, n, with_zero, width, lip);
   const bool may_be_negative = axis.value.lo < -kNegligible;
   const Interval may_turn = may_be_negative ? hull(axis.slope, {0, 0}) : axis.slope;
@@ -192,13 +232,7 @@ Course fork_of(const Course& axis, const Course* f, const Course* weights, std::
   const Interval missing = joined_positive ? Interval{-met_less, kNegligible} : Interval{-kInfinity, kInfinity};
   slope = slope + missing * share_slope;
   if (n > 1) {
-    // The share of several also moves with what each of them has of their sum.
-    double moves = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (!(f[k].value.hi > 0)) continue;
-      const double away = std::max(share.hi - weights[k].value.lo, weights[k].value.hi - share.lo);
-      moves += times(std::max(std::abs(f[k].slope.lo), std::abs(f[k].slope.hi)), away);
-    }
+    const double moves = share_moves(f, weights, n, total_lo);
     // t - m is at most the joined laterals, and these at most their sum.
     const double per_total = total_lo > 0 ? std::min(1.0, met_less / total_lo) : 1.0;
     const double most = joined_positive ? times(moves, per_total) : kInfinity;
