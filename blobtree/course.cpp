@@ -292,8 +292,10 @@ Course Evaluator::course(const Ball& ball, const Vec3& direction, bool wide, con
   CoursePolicy policy(view, s);
   const Course course = run_tape(view, policy, s.courses);
   if (!(course.slope.lo <= course.slope.hi)) return {a_hair_wider(course.value), {-kInfinity, kInfinity}};   // infinities met
+  // A hair wider, but at 0: that is the slope of what is constant, exactly.
   const double slack = 1e-9 * (std::abs(course.slope.lo) + std::abs(course.slope.hi));
-  return {a_hair_wider(course.value), {course.slope.lo - slack, course.slope.hi + slack}};
+  return {a_hair_wider(course.value),
+          {course.slope.lo == 0 ? 0 : course.slope.lo - slack, course.slope.hi == 0 ? 0 : course.slope.hi + slack}};
 }
 
 }  // namespace cambium

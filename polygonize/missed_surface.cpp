@@ -15,6 +15,7 @@
 namespace cambium {
 namespace {
 
+constexpr double kReach = 2;               // tolerances: how far polygons are looked for
 constexpr double kFar = 1.8;               // from the polygons, in tolerances: these are measured to be within one, but at a few places
 constexpr double kFinest = 0.5;            // the smallest cubes, in tolerances, or down to half of that
 constexpr double kMostCubes = 8;           // of one leaf, for each of the smallest on a face: bounds of warped fields tell little
@@ -59,24 +60,19 @@ class PatchesOfLeaves {
   std::vector<std::uint32_t> first_, patches_;
 };
 
-/// The polygons near a leaf. Scratch.
+/// The vertices near a box and the polygons around these, each found when it is first asked for. Scratch.
 class PolygonsNearby {
  public:
   PolygonsNearby(const SurfaceOctree& tree, const Contour& contour, const PlacedPolygons& placed, const PatchesOfLeaves& patches)
-      : tree_(tree), contour_(contour), placed_(placed), positions_(placed.positions), patches_(patches) {}
+      : tree_(tree), contour_(contour), placed_(placed), positions_(placed.positions), patches_of_(patches) {}
 
-  /// Those around the vertices of the leaves that reach into a box.
-  void gather(const Box& box) {
-    vertices_.clear();
-    edges_.clear();
-    triangles_.clear();
-    visit(tree_.root(), {{0, 0, 0}, tree_.root_level()}, box);
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    for (const std::uint32_t e : edges_) add_polygon(e);
+  void turn_to(const Box& box) {
+    box_ = box;
+    knows_patches_ = knows_triangles_ = false;
   }
   /// Infinite if there are none.
-  double distance(const Vec3& p) const {
+  double distance(const Vec3& p) {
+    if (!knows_triangles_) find_triangles();
     double least = kInfinity;
     for (const Triangle& t : triangles_) {
       const double possible = least + t.around.radius;
@@ -85,10 +81,11 @@ class PolygonsNearby {
     }
     return least;
   }
-  double distance_to_vertex(const Vec3& p, const Box& in) const {
+  double distance_to_vertex(const Vec3& p, const Box& in) {
+    if (!knows_patches_) find_patches();
     double least = kInfinity;
-    for (const Vec3& v : vertices_)
-      if (in.contains(v)) least = std::min(least, glm::dot(v - p, v - p));
+    for (const std::uint32_t patch : near_)
+      if (const Vec3& v = positions_[patch]; in.contains(v)) least = std::min(least, glm::dot(v - p, v - p));
     return std::sqrt(least);
   }
 
@@ -98,22 +95,53 @@ class PolygonsNearby {
     Ball around;
   };
 
-  void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 middle = (a + b + c) / 3.0;
-    triangles_.push_back({a, b, c, {middle, std::max({glm::length(a - middle), glm::length(b - middle), glm::length(c - middle)})}});
+  void find_patches() {
+    knows_patches_ = true;
+    near_.clear();
+    SurfaceOctree::Node node = tree_.root();
+    Cube cube{{0, 0, 0}, tree_.root_level()};
+    while (node.has_children()) {   // down to where the box lies in several
+      const Vec3 middle = tree_.grid().box(cube.place, cube.level).center();
+      std::uint32_t child = 0;
+      bool lies_in_one = true;
+      for (int a = 0; a < 3; ++a) {
+        if (box_.lo[a] > middle[a]) child |= 1u << a;
+        lies_in_one = lies_in_one && (box_.lo[a] > middle[a] || box_.hi[a] < middle[a]);
+      }
+      if (!lies_in_one) break;
+      node = tree_.child(node, static_cast<int>(child));
+      cube = part_of(cube, child);
+    }
+    visit(node, cube);
   }
 
-  void visit(SurfaceOctree::Node node, const Cube& cube, const Box& box) {
-    if (node.is_void() || !overlap(tree_.grid().box(cube.place, cube.level), box)) return;
+  void visit(SurfaceOctree::Node node, const Cube& cube) {
+    if (node.is_void() || !overlap(tree_.grid().box(cube.place, cube.level), box_)) return;
     if (node.has_children()) {
-      for (std::uint32_t c = 0; c < 8; ++c) visit(tree_.child(node, static_cast<int>(c)), part_of(cube, c), box);
+      for (std::uint32_t c = 0; c < 8; ++c) visit(tree_.child(node, static_cast<int>(c)), part_of(cube, c));
       return;
     }
-    for (const std::uint32_t p : patches_.of(node.leaf())) {
-      vertices_.push_back(positions_[p]);
+    const auto patches = patches_of_.of(node.leaf());
+    near_.insert(near_.end(), patches.begin(), patches.end());
+  }
+
+  void find_triangles() {
+    if (!knows_patches_) find_patches();
+    knows_triangles_ = true;
+    edges_.clear();
+    triangles_.clear();
+    for (const std::uint32_t p : near_) {
       const auto ring = contour_.ring(p);
       edges_.insert(edges_.end(), ring.begin(), ring.end());
     }
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    for (const std::uint32_t e : edges_) add_polygon(e);
+  }
+
+  void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 middle = (a + b + c) / 3.0;
+    triangles_.push_back({a, b, c, {middle, std::max({glm::length(a - middle), glm::length(b - middle), glm::length(c - middle)})}});
   }
 
   void add_polygon(std::uint32_t e) {
@@ -135,9 +163,10 @@ class PolygonsNearby {
   const Contour& contour_;
   const PlacedPolygons& placed_;
   const std::vector<Vec3>& positions_;
-  const PatchesOfLeaves& patches_;
-  std::vector<Vec3> vertices_;
-  std::vector<std::uint32_t> edges_;
+  const PatchesOfLeaves& patches_of_;
+  Box box_;
+  bool knows_patches_ = false, knows_triangles_ = false;
+  std::vector<std::uint32_t> near_, edges_;   // patches, and the edges around them
   std::vector<Triangle> triangles_;
 };
 
@@ -161,8 +190,8 @@ class MissedSurface::Search {
     enter_region_of(l);
     if (only_blends_) return;
     const Box box = tree_.box(l);
-    if (l.uniform() ? is_bare(box) : falls_throughout(circumscribed_ball(box))) return;
-    polygons_.gather(box.padded(2 * tolerance_));
+    if (!l.uniform() && falls_throughout(circumscribed_ball(box))) return;
+    polygons_.turn_to(box.padded(kReach * tolerance_));
     cubes_ = 0;
     most_cubes_ = static_cast<int>(kMostCubes * std::pow(4.0, std::max(l.level - finest_, 3)));
     places_.clear();
@@ -187,37 +216,39 @@ class MissedSurface::Search {
 
   bool is_bare(const Box& box) { return !evaluator_.interval(field_, box).contains(kIso); }
 
-  Vec3 uphill(const Vec3& p) {
-    const Vec3 gradient = evaluator_.sample(field_, p).gradient;
+  static Vec3 direction_of(const Vec3& gradient) {
     const double slope = glm::length(gradient);
     return slope > 0 ? gradient / slope : Vec3(0.0);
   }
+  Vec3 uphill(const Vec3& p) { return direction_of(evaluator_.sample(field_, p).gradient); }
 
   /// The way it falls in the middle: then no wedge of wood or air is sharper than a right angle there.
   bool falls_throughout(const Ball& ball) { return evaluator_.course(field_, ball, uphill(ball.center)).slope.lo > 0; }
 
   /// Whether there is no surface in a ball, or one sheet at most that a vertex near by is on.
-  bool is_settled(const Ball& ball) {
-    const Vec3 up = uphill(ball.center);
+  bool is_settled(const Ball& ball, const Vec3& up) {
     const Course course = evaluator_.course(field_, ball, up);
     if (!course.value.contains(kIso)) return true;
-    if (!(course.slope.lo > 0)) return false;
+    if (!(course.slope.lo >= 0)) return false;
     const double reach = polygons_.distance_to_vertex(ball.center, field_.box());
-    return reach <= ball.radius || (reach < kInfinity && evaluator_.course(field_, {ball.center, reach}, up).slope.lo > 0);
+    return reach <= ball.radius || (reach < kInfinity && evaluator_.course(field_, {ball.center, reach}, up).slope.lo >= 0);
   }
 
-  /// Whether no slope leads from the middle of a ball to the surface in it. Where fields take from each other their slopes cancel, and
+  /// Whether no slope leads from the middle of a cube to the surface in it. Where fields take from each other their slopes cancel, and
   /// bounds of their values do not.
-  bool is_out_of_reach(const Ball& ball) {
-    double steepest2 = 0;
+  bool is_out_of_reach(const Box& box, const Ball& ball, const Sample& middle) {
+    const double half_edge = 0.5 * (box.hi.x - box.lo.x), farthest = std::abs(middle.value - kIso);
+    const auto reached = [&](const Vec3& steepest) { return half_edge * (steepest.x + steepest.y + steepest.z) >= farthest; };
+    if (reached(glm::abs(middle.gradient))) return false;   // before much is asked
+    Vec3 steepest(0.0);
     for (int a = 0; a < 3; ++a) {
       Vec3 along(0.0);
       along[a] = 1;
       const Interval slope = evaluator_.course(field_, ball, along).slope;
-      const double steepest = std::max(-slope.lo, slope.hi);
-      steepest2 += steepest * steepest;
+      steepest[a] = std::max(-slope.lo, slope.hi);
+      if (reached(steepest)) return false;
     }
-    return std::abs(evaluator_.value(field_, ball.center) - kIso) > std::sqrt(steepest2) * ball.radius;
+    return true;
   }
 
   /// True as soon as surface is found that must be shown.
@@ -227,12 +258,12 @@ class MissedSurface::Search {
     if (++cubes_ > most_cubes_) return places_.push_back(box.center()), false;
     if (is_bare(box)) return false;
     const Ball ball = circumscribed_ball(box);
-    const double distance = polygons_.distance(ball.center);
-    if (distance + ball.radius <= kFar * tolerance_) return false;
-    if (is_settled(ball)) return false;
+    const double far = kFar * tolerance_;
+    if (ball.radius <= far && polygons_.distance(ball.center) + ball.radius <= far) return false;
+    const Sample middle = evaluator_.sample(field_, ball.center);
+    if (is_settled(ball, direction_of(middle.gradient)) || is_out_of_reach(box, ball, middle)) return false;
     const bool is_last = cube.level <= finest_;
-    if (is_out_of_reach(ball)) return false;
-    if (is_last || distance - ball.radius > kFar * tolerance_) {
+    if (is_last || polygons_.distance(ball.center) - ball.radius > far) {
       const Kinds kinds = kinds_in(box);
       if (kinds.thick_wood && kinds.thick_air) return places_.push_back(ball.center), true;
       if (is_last && kinds.may_hide_wood()) places_.push_back(ball.center);
