@@ -21,9 +21,10 @@ constexpr double kFinest = 0.5;            // the smallest cubes, in tolerances,
 constexpr double kMostCubes = 8;           // of one leaf, for each of the smallest on a face: bounds of warped fields tell little
 constexpr std::size_t kLeavesPerTask = 64;
 constexpr int kRegionLevels = 2;           // above a leaf: what is active in so much of its cell is found anew
-constexpr std::uint32_t kNoCell = 0xffffffffu;
+constexpr std::uint32_t kNoCell = 0xffffffffu, kNoEdge = 0xffffffffu;
 
 using PlacedPolygons = MissedSurface::PlacedPolygons;
+const Box kEverywhere{Vec3(-kInfinity), Vec3(kInfinity)};
 
 struct Cube {
   CellPlace place;
@@ -70,10 +71,11 @@ class PolygonsNearby {
     box_ = box;
     knows_patches_ = knows_triangles_ = false;
   }
-  /// Infinite if there are none.
-  double distance(const Vec3& p) {
+  /// Infinite if there are none. `enough`: a distance that need not be told from smaller ones.
+  double distance(const Vec3& p, double enough) {
+    double least = distance_to_vertex(p, kEverywhere);
+    if (least <= enough) return least;
     if (!knows_triangles_) find_triangles();
-    double least = kInfinity;
     for (const Triangle& t : triangles_) {
       const double possible = least + t.around.radius;
       const Vec3 away = p - t.around.center;
@@ -136,15 +138,36 @@ class PolygonsNearby {
     }
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    for (const std::uint32_t e : edges_) add_polygon(e);
+    for (const std::uint32_t e : edges_) {
+      const Polygon& polygon = polygon_of(e);
+      triangles_.insert(triangles_.end(), polygon.triangles.begin(), polygon.triangles.begin() + polygon.count);
+    }
   }
 
-  void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 middle = (a + b + c) / 3.0;
-    triangles_.push_back({a, b, c, {middle, std::max({glm::length(a - middle), glm::length(b - middle), glm::length(c - middle)})}});
+  /// Of an edge, cut as it will be: a fan of four at most.
+  struct Polygon {
+    std::uint32_t edge = kNoEdge;
+    int count = 0;
+    std::array<Triangle, 4> triangles;
+    void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+      const Vec3 middle = (a + b + c) / 3.0;
+      const double farthest2 = std::max({glm::dot(a - middle, a - middle), glm::dot(b - middle, b - middle), glm::dot(c - middle, c - middle)});
+      triangles[static_cast<std::size_t>(count++)] = {a, b, c, {middle, std::sqrt(farthest2)}};
+    }
+  };
+
+  /// Each is near several leaves, which come one after another.
+  const Polygon& polygon_of(std::uint32_t e) {
+    Polygon& kept = kept_[e % kept_.size()];
+    if (kept.edge != e) {
+      kept.edge = e;
+      kept.count = 0;
+      cut(e, kept);
+    }
+    return kept;
   }
 
-  void add_polygon(std::uint32_t e) {
+  void cut(std::uint32_t e, Polygon& polygon) const {
     const auto& patches = contour_.patch_of_quadrant[e];
     if (std::find(patches.begin(), patches.end(), kNoPatch) != patches.end()) return;   // the surface ends here
     const Ring ring = ring_of(contour_.edges[e], patches);
@@ -152,10 +175,10 @@ class PolygonsNearby {
     const Split split = placed_.splits[e] ? *placed_.splits[e] : split_of(tree_, contour_, e, ring, positions_, placed_.tolerance);
     if (split == Split::kFan) {
       const Vec3 center = crossing_point(tree_, contour_, e);
-      for (int k = 0; k < ring.count; ++k) add_triangle(center, corner(k), corner(k + 1));
+      for (int k = 0; k < ring.count; ++k) polygon.add(center, corner(k), corner(k + 1));
     } else {
       const int first = split == Split::kSecond ? 1 : 0;
-      for (int k = 2; k < ring.count; ++k) add_triangle(corner(first), corner(first + k - 1), corner(first + k));
+      for (int k = 2; k < ring.count; ++k) polygon.add(corner(first), corner(first + k - 1), corner(first + k));
     }
   }
 
@@ -168,6 +191,7 @@ class PolygonsNearby {
   bool knows_patches_ = false, knows_triangles_ = false;
   std::vector<std::uint32_t> near_, edges_;   // patches, and the edges around them
   std::vector<Triangle> triangles_;
+  std::vector<Polygon> kept_ = std::vector<Polygon>(512);   // by edge; another takes its place
 };
 
 }  // namespace
@@ -259,11 +283,11 @@ class MissedSurface::Search {
     if (is_bare(box)) return false;
     const Ball ball = circumscribed_ball(box);
     const double far = kFar * tolerance_;
-    if (ball.radius <= far && polygons_.distance(ball.center) + ball.radius <= far) return false;
+    if (ball.radius <= far && polygons_.distance(ball.center, far - ball.radius) <= far - ball.radius) return false;
     const Sample middle = evaluator_.sample(field_, ball.center);
     if (is_settled(ball, direction_of(middle.gradient)) || is_out_of_reach(box, ball, middle)) return false;
     const bool is_last = cube.level <= finest_;
-    if (is_last || polygons_.distance(ball.center) - ball.radius > far) {
+    if (is_last || polygons_.distance(ball.center, far + ball.radius) > far + ball.radius) {
       const Kinds kinds = kinds_in(box);
       if (kinds.thick_wood && kinds.thick_air) return places_.push_back(ball.center), true;
       if (is_last && kinds.may_hide_wood()) places_.push_back(ball.center);
@@ -333,9 +357,12 @@ std::optional<std::vector<std::uint32_t>> MissedSurface::find(const SurfaceOctre
                                                               const PlacedPolygons& placed, const RunOptions& run) {
   const std::size_t first = std::exchange(first_new_, tree.leaves().size());
   auto listed = in_chunks<std::vector<std::uint32_t>>(first_new_ - first, 4096, [&](auto& part, std::size_t begin, std::size_t end) {
+    std::uint32_t cell = kNoCell;
+    bool only_blends = false;   // in that cell
     for (std::size_t i = first + begin; i < first + end; ++i) {
       const OctreeLeaf& leaf = tree.leaves()[i];
-      if (!ActiveChain::only_blend(cover.cube_field(leaf.cell)) && tree.find(leaf.place) == i) part.push_back(static_cast<std::uint32_t>(i));
+      if (leaf.cell != cell) only_blends = ActiveChain::only_blend(cover.cube_field(cell = leaf.cell));
+      if (!only_blends && tree.find(leaf.place) == i) part.push_back(static_cast<std::uint32_t>(i));
     }
   });
   std::vector<std::uint32_t> leaves, to_cut;
