@@ -1,7 +1,7 @@
 #include "polygonize/missed_surface.h"
 
 #include "blobtree/lone_chain.h"
-#include "polygonize/mesh_distance.h"
+#include "polygonize/nearby_polygons.h"
 #include "polygonize/ordered_chunks.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace cambium {
@@ -21,178 +20,7 @@ constexpr double kFinest = 0.5;            // the smallest cubes, in tolerances,
 constexpr double kMostCubes = 8;           // of one leaf, for each of the smallest on a face: bounds of warped fields tell little
 constexpr std::size_t kLeavesPerTask = 64;
 constexpr int kRegionLevels = 2;           // above a leaf: what is active in so much of its cell is found anew
-constexpr std::uint32_t kNoCell = 0xffffffffu, kNoEdge = 0xffffffffu;
-
-using PlacedPolygons = MissedSurface::PlacedPolygons;
-const Box kEverywhere{Vec3(-kInfinity), Vec3(kInfinity)};
-
-struct Cube {
-  CellPlace place;
-  int level = 0;
-};
-
-Cube part_of(const Cube& cube, std::uint32_t child) {
-  Cube part{cube.place, cube.level - 1};
-  for (int a = 0; a < 3; ++a) part.place[a] += (child >> a & 1) << part.level;
-  return part;
-}
-
-bool overlap(const Box& a, const Box& b) {
-  for (int k = 0; k < 3; ++k)
-    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
-  return true;
-}
-
-/// The living patches of each leaf.
-class PatchesOfLeaves {
- public:
-  PatchesOfLeaves(const Contour& contour, std::size_t leaves) : first_(leaves + 1, 0) {
-    for (const Patch& patch : contour.patches)
-      if (patch.alive()) ++first_[patch.leaf + 1];
-    for (std::size_t i = 0; i < leaves; ++i) first_[i + 1] += first_[i];
-    patches_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (std::uint32_t p = 0; p < contour.patches.size(); ++p)
-      if (contour.patches[p].alive()) patches_[next[contour.patches[p].leaf]++] = p;
-  }
-  std::span<const std::uint32_t> of(std::uint32_t leaf) const { return {patches_.data() + first_[leaf], first_[leaf + 1] - first_[leaf]}; }
-
- private:
-  std::vector<std::uint32_t> first_, patches_;
-};
-
-/// The vertices near a box and the polygons around these, each found when it is first asked for. Scratch.
-class PolygonsNearby {
- public:
-  PolygonsNearby(const SurfaceOctree& tree, const Contour& contour, const PlacedPolygons& placed, const PatchesOfLeaves& patches)
-      : tree_(tree), contour_(contour), placed_(placed), positions_(placed.positions), patches_of_(patches) {}
-
-  void turn_to(const Box& box) {
-    box_ = box;
-    knows_patches_ = knows_triangles_ = false;
-  }
-  /// Infinite if there are none. `enough`: a distance that need not be told from smaller ones.
-  double distance(const Vec3& p, double enough) {
-    double least = distance_to_vertex(p, kEverywhere);
-    if (least <= enough) return least;
-    if (!knows_triangles_) find_triangles();
-    for (const Triangle& t : triangles_) {
-      const double possible = least + t.around.radius;
-      const Vec3 away = p - t.around.center;
-      if (glm::dot(away, away) < possible * possible) least = std::min(least, std::sqrt(distance2_to_triangle(p, t.a, t.b, t.c)));
-    }
-    return least;
-  }
-  double distance_to_vertex(const Vec3& p, const Box& in) {
-    if (!knows_patches_) find_patches();
-    double least = kInfinity;
-    for (const std::uint32_t patch : near_)
-      if (const Vec3& v = positions_[patch]; in.contains(v)) least = std::min(least, glm::dot(v - p, v - p));
-    return std::sqrt(least);
-  }
-
- private:
-  struct Triangle {
-    Vec3 a, b, c;
-    Ball around;
-  };
-
-  void find_patches() {
-    knows_patches_ = true;
-    near_.clear();
-    SurfaceOctree::Node node = tree_.root();
-    Cube cube{{0, 0, 0}, tree_.root_level()};
-    while (node.has_children()) {   // down to where the box lies in several
-      const Vec3 middle = tree_.grid().box(cube.place, cube.level).center();
-      std::uint32_t child = 0;
-      bool lies_in_one = true;
-      for (int a = 0; a < 3; ++a) {
-        if (box_.lo[a] > middle[a]) child |= 1u << a;
-        lies_in_one = lies_in_one && (box_.lo[a] > middle[a] || box_.hi[a] < middle[a]);
-      }
-      if (!lies_in_one) break;
-      node = tree_.child(node, static_cast<int>(child));
-      cube = part_of(cube, child);
-    }
-    visit(node, cube);
-  }
-
-  void visit(SurfaceOctree::Node node, const Cube& cube) {
-    if (node.is_void() || !overlap(tree_.grid().box(cube.place, cube.level), box_)) return;
-    if (node.has_children()) {
-      for (std::uint32_t c = 0; c < 8; ++c) visit(tree_.child(node, static_cast<int>(c)), part_of(cube, c));
-      return;
-    }
-    const auto patches = patches_of_.of(node.leaf());
-    near_.insert(near_.end(), patches.begin(), patches.end());
-  }
-
-  void find_triangles() {
-    if (!knows_patches_) find_patches();
-    knows_triangles_ = true;
-    edges_.clear();
-    triangles_.clear();
-    for (const std::uint32_t p : near_) {
-      const auto ring = contour_.ring(p);
-      edges_.insert(edges_.end(), ring.begin(), ring.end());
-    }
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    for (const std::uint32_t e : edges_) {
-      const Polygon& polygon = polygon_of(e);
-      triangles_.insert(triangles_.end(), polygon.triangles.begin(), polygon.triangles.begin() + polygon.count);
-    }
-  }
-
-  /// Of an edge, cut as it will be: a fan of four at most.
-  struct Polygon {
-    std::uint32_t edge = kNoEdge;
-    int count = 0;
-    std::array<Triangle, 4> triangles;
-    void add(const Vec3& a, const Vec3& b, const Vec3& c) {
-      const Vec3 middle = (a + b + c) / 3.0;
-      const double farthest2 = std::max({glm::dot(a - middle, a - middle), glm::dot(b - middle, b - middle), glm::dot(c - middle, c - middle)});
-      triangles[static_cast<std::size_t>(count++)] = {a, b, c, {middle, std::sqrt(farthest2)}};
-    }
-  };
-
-  /// Each is near several leaves, which come one after another.
-  const Polygon& polygon_of(std::uint32_t e) {
-    Polygon& kept = kept_[e % kept_.size()];
-    if (kept.edge != e) {
-      kept.edge = e;
-      kept.count = 0;
-      cut(e, kept);
-    }
-    return kept;
-  }
-
-  void cut(std::uint32_t e, Polygon& polygon) const {
-    const auto& patches = contour_.patch_of_quadrant[e];
-    if (std::find(patches.begin(), patches.end(), kNoPatch) != patches.end()) return;   // the surface ends here
-    const Ring ring = ring_of(contour_.edges[e], patches);
-    const auto corner = [&](int k) { return positions_[ring.patches[k % ring.count]]; };
-    const Split split = placed_.splits[e] ? *placed_.splits[e] : split_of(tree_, contour_, e, ring, positions_, placed_.tolerance);
-    if (split == Split::kFan) {
-      const Vec3 center = crossing_point(tree_, contour_, e);
-      for (int k = 0; k < ring.count; ++k) polygon.add(center, corner(k), corner(k + 1));
-    } else {
-      const int first = split == Split::kSecond ? 1 : 0;
-      for (int k = 2; k < ring.count; ++k) polygon.add(corner(first), corner(first + k - 1), corner(first + k));
-    }
-  }
-
-  const SurfaceOctree& tree_;
-  const Contour& contour_;
-  const PlacedPolygons& placed_;
-  const std::vector<Vec3>& positions_;
-  const PatchesOfLeaves& patches_of_;
-  Box box_;
-  bool knows_patches_ = false, knows_triangles_ = false;
-  std::vector<std::uint32_t> near_, edges_;   // patches, and the edges around them
-  std::vector<Triangle> triangles_;
-  std::vector<Polygon> kept_ = std::vector<Polygon>(512);   // by edge; another takes its place
-};
+constexpr std::uint32_t kNoCell = 0xffffffffu;
 
 }  // namespace
 
@@ -204,7 +32,7 @@ struct MissedSurface::Found {
 /// Looks through one leaf after another. Scratch of one thread.
 class MissedSurface::Search {
  public:
-  Search(const SurfaceOctree& tree, const SurfaceCover& cover, const PolygonsNearby& polygons, double tolerance, const RunOptions& run)
+  Search(const SurfaceOctree& tree, const SurfaceCover& cover, const NearbyPolygons& polygons, double tolerance, const RunOptions& run)
       : tree_(tree), cover_(cover), polygons_(polygons), tolerance_(tolerance), run_(run) {
     while (std::ldexp(tree.grid().cell, finest_ + 1) <= kFinest * tolerance) ++finest_;
   }
@@ -276,7 +104,7 @@ class MissedSurface::Search {
   }
 
   /// True as soon as surface is found that must be shown.
-  bool look_into(const Cube& cube) {
+  bool look_into(const GridCube& cube) {
     const Box box = tree_.grid().box(cube.place, cube.level);
     if (run_.cancelled()) return false;
     if (++cubes_ > most_cubes_) return places_.push_back(box.center()), false;
@@ -294,7 +122,7 @@ class MissedSurface::Search {
     }
     if (is_last) return false;
     for (std::uint32_t c = 0; c < 8; ++c)
-      if (look_into(part_of(cube, c))) return true;
+      if (look_into(cube.part(c))) return true;
     return false;
   }
 
@@ -340,12 +168,12 @@ class MissedSurface::Search {
 
   const SurfaceOctree& tree_;
   const SurfaceCover& cover_;
-  PolygonsNearby polygons_;
+  NearbyPolygons polygons_;
   double tolerance_;
   const RunOptions& run_;
   Evaluator evaluator_;
   std::uint32_t cell_ = kNoCell;
-  Cube region_{};
+  GridCube region_;
   PrunedField field_;   // of the cell in the region and a little around it
   bool only_blends_ = false;
   int finest_ = 0;
@@ -369,7 +197,7 @@ std::optional<std::vector<std::uint32_t>> MissedSurface::find(const SurfaceOctre
   append_parts(listed, leaves);
   if (leaves.empty()) return to_cut;
   const PatchesOfLeaves patches(contour, tree.leaves().size());
-  const PolygonsNearby polygons(tree, contour, placed, patches);
+  const NearbyPolygons polygons(tree, contour, placed, patches);
   tbb::enumerable_thread_specific<Search> searches([&] { return Search(tree, cover, polygons, placed.tolerance, run); });
   const auto parts = in_chunks<Found>(leaves.size(), kLeavesPerTask, [&](Found& part, std::size_t begin, std::size_t end) {
     Search& search = searches.local();

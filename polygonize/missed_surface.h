@@ -2,7 +2,7 @@
 // nothing of it, and polygons are measured only where they are.
 #pragma once
 
-#include "polygonize/polygon_split.h"
+#include "polygonize/nearby_polygons.h"
 
 #include <optional>
 #include <vector>
@@ -11,17 +11,10 @@ namespace cambium {
 
 /// Goes through the leaves of a contour that is refined. Every part of a leaf must be free of surface, near the polygons, or hold one
 /// sheet only, that of a vertex near by: bounds of the field's values and slopes say so for certain, or the part is cut in eight, down
-/// to the smallest cubes. Cells where primitives only blend (ActiveChain::only_blend) are left out: no wood there is thinner than the
+/// to the smallest cubes. Where primitives only blend (ActiveChain::only_blend) all is left out: no wood there is thinner than the
 /// radii that leaves were sized by, but for webs between two of them.
 class MissedSurface {
  public:
-  /// Where the vertices are, by patch, and how polygons are cut, by edge; where that is not told, as split_of() would.
-  struct PlacedPolygons {
-    const std::vector<Vec3>& positions;
-    const std::vector<std::optional<Split>>& splits;
-    double tolerance;   ///< metres
-  };
-
   /// Of the leaves made since the last call, those that hold surface farther than 1.8 tolerances from all polygons, so thick that
   /// smaller leaves would show it; ascending. nullopt if cancelled. The same at any thread count. Cost: a bound for every leaf, some
   /// thousands where that is not enough.

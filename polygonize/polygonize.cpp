@@ -55,7 +55,10 @@ std::vector<Vec3> one_a_cube(const std::vector<Vec3>& places, double edge) {
 /// What remains of the doubts that there were before there were polygons: where primitives only blend they stay, elsewhere others are
 /// known since.
 std::vector<Vec3> settled_doubts(const SurfaceCover& cover, std::vector<Vec3> first, const std::vector<Vec3>& since, double tolerance) {
-  std::erase_if(first, [&](const Vec3& p) { return !ActiveChain::only_blend(cover.cube_field(*cover.find(p))); });
+  std::erase_if(first, [&](const Vec3& p) {
+    const PrunedField field = cover.cube_field(*cover.find(p));
+    return !ActiveChain::only_blend(field.narrowed(Box::intersection(field.box(), Box{p, p}.padded(tolerance))));
+  });
   first.insert(first.end(), since.begin(), since.end());
   return one_a_cube(first, kPlaceTolerances * tolerance);
 }

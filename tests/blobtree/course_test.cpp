@@ -100,6 +100,48 @@ TEST(Course, SlopesCloseInInProportionToTheWay) {
   EXPECT_GT(closer, 170);
 }
 
+TEST(Course, OfABentBranchTellsThatItFallsOutwards) {
+  BlobTreeBuilder b;
+  const NodeId straight = b.add(Capsule{{0, 0, 0}, {0, 0, 1}, 0.05, 1});
+  const Field field(b.build(b.add(Bend{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 1, straight})));
+  const PrunedField pruned = field.prune(field.bounds());
+  Evaluator evaluator;
+  Draws draws(7);
+  int on_surface = 0;
+  while (on_surface < 200) {
+    const Vec3 p = draws.point(field.bounds());
+    const Sample s = evaluator.sample(pruned, p);
+    if (std::abs(s.value - kIso) > 0.05) continue;
+    ++on_surface;
+    EXPECT_GT(evaluator.course(pruned, {p, 0.005}, glm::normalize(s.gradient)).slope.lo, 0);
+  }
+}
+
+TEST(Course, WhereNothingIsLeftThereIsNoSlope) {
+  BlobTreeBuilder b;
+  const NodeId ball = b.add(Sphere{{0, 0, 0}, 1, 1}), plane = b.add(HalfSpace{{0, 0, 0}, {0, 0, 1}, 0.1});
+  const Field field(b.build(b.add(Intersection{{ball, plane}})));
+  const Course course = Evaluator().course(field.prune(field.bounds()), {{0.5, 0, 0.5}, 0.1}, {1, 0, 0});
+  EXPECT_EQ(course.value.hi, 0);
+  EXPECT_EQ(course.slope.lo, 0);
+  EXPECT_EQ(course.slope.hi, 0);
+}
+
+TEST(Course, OfAForkTakesLittleOfALateralOfWhichThereIsLittle) {
+  BlobTreeBuilder b;
+  const NodeId trunk = b.add(Chain{{{{0, 0, 0}, 0.10}, {{0, 0, 2}, 0.10}}});
+  const NodeId limb = b.add(Chain{{{{0, 0, 1}, 0.06}, {{0.6, 0, 1.5}, 0.04}}});
+  const NodeId far = b.add(Chain{{{{0, 0, 1}, 0.06}, {{-0.6, 0, 1.5}, 0.04}}});
+  const Field field(b.build(b.add(Fork{trunk, {{limb, {0, 0, 1}, {0, 0, 1}, 0.04, 0.3}, {far, {0, 0, 1}, {0, 0, -1}, 0.04, 0.3}}})));
+  const PrunedField pruned = field.prune(field.bounds());
+  Evaluator evaluator;
+  const Vec3 beside(0.14, 0, 1.06);   // where the limb leaves the trunk, and the other has all but ended
+  const Vec3 up = glm::normalize(evaluator.sample(pruned, beside).gradient);
+  const Interval slope = evaluator.course(pruned, {beside, 1e-3}, up).slope;
+  EXPECT_GT(slope.lo, 0);
+  EXPECT_LT(slope.hi - slope.lo, 0.5 * slope.hi);
+}
+
 TEST(Course, ThroughABallHoldsTheValuesAndChordsOfAllWaysInThatDirection) {
   Evaluator evaluator;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {

@@ -1,5 +1,6 @@
 #include "blobtree/field.h"
 #include "conformance_cases.h"
+#include "random_blobtrees.h"
 
 #include <gtest/gtest.h>
 
@@ -107,6 +108,38 @@ TEST(Field, KnowsTheSmallestRadiusInABox) {
   });
   EXPECT_EQ(field.prune({{-1, -1, -1}, {1, 1, 1}}).smallest_radius(), 0.3);
   EXPECT_EQ(field.prune({{-1, -1, -1}, {6, 1, 1}}).smallest_radius(), 0.001);
+}
+
+TEST(Field, OfASolidThatIsCutHasNothingOfTheCutAwayFromIt) {
+  for (const bool plane_first : {false, true}) {
+    const Field field = field_of([&](auto& b) {
+      const NodeId chain = b.add(Chain{{{{0, 0, 0}, 0.1}, {{0, 0, 2}, 0.1}}});
+      const NodeId plane = b.add(HalfSpace{{0, 0, 1}, {0.1, 0, 1}, 0.02});
+      return b.add(plane_first ? Intersection{{plane, chain}} : Intersection{{chain, plane}});
+    });
+    EXPECT_EQ(field.prune({{0, 0, 0.2}, {0.1, 0.1, 0.4}}).atom_count(), 1u);
+    EXPECT_EQ(field.prune({{0, 0, 0.95}, {0.1, 0.1, 1.1}}).atom_count(), 2u);
+    EXPECT_EQ(field.value({0, 0, 0.3}), 1);
+    EXPECT_NEAR(field.value({0, 0, 1}), kIso, 1e-15);
+    EXPECT_EQ(field.value({0, 0, 1.2}), 0);
+  }
+}
+
+TEST(PrunedField, NarrowedIsTheFieldOfThePart) {
+  Evaluator evaluator;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Field field(random_blobtree(seed, 4));
+    if (field.bounds().empty()) continue;
+    Draws draws(seed);
+    const PrunedField whole = field.prune(draws.box(field.bounds()));
+    const Box part = draws.box(whole.box());
+    const PrunedField narrowed = whole.narrowed(part);
+    EXPECT_EQ(narrowed.atom_count(), field.prune(part).atom_count()) << seed;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = draws.point(part);
+      ASSERT_EQ(evaluator.value(narrowed, p), evaluator.value(whole, p)) << seed;
+    }
+  }
 }
 
 }  // namespace

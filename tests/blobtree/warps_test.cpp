@@ -59,6 +59,27 @@ TEST(Bend, RefusesAChildThickerThanItsRadiusOfCurvature) {
   EXPECT_THROW(bend(0.25), InvalidNode);  // support 0.55
 }
 
+TEST(Bend, MovesVelocitiesAsItMovesPointsAndTellsHowFarTheyTurn) {
+  Draws draws(11);
+  for (int i = 0; i < 400; ++i) {
+    const Warp warp = bend_warp({kO, kZ, kX, draws.in(-2.5, 2.5), 0});
+    const auto* const bend = std::get_if<BendWarp>(&warp);
+    if (!bend) continue;
+    const Vec3 velocity = draws.direction();
+    const Ball ball{draws.point({Vec3(-0.3, -0.5, -0.3), Vec3(0.5, 0.5, 1.3)}), draws.in(1e-3, 0.2)};
+    if (!unwarp(warp, ball).certain) continue;
+    const Vec3 middle = push_forward(*bend, ball.center, velocity);
+    const double turn = turn_in(*bend, ball, velocity);
+    for (int k = 0; k < 50; ++k) {
+      const Vec3 p = ball.center + draws.in(0, 1) * ball.radius * draws.direction();
+      ASSERT_LE(glm::length(push_forward(*bend, p, velocity) - middle), turn + 1e-12);
+    }
+    constexpr double kStep = 1e-7;
+    const Vec3 difference = (unwarp(warp, ball.center + kStep * velocity) - unwarp(warp, ball.center - kStep * velocity)) / (2 * kStep);
+    ASSERT_NEAR(glm::length(difference - middle), 0, 1e-5);
+  }
+}
+
 TEST(Transform, MovesTheChild) {
   Mat4 m(0.0);  // x -> y -> z -> x, twice as large, then up by 3
   m[0][1] = m[1][2] = m[2][0] = 2;
