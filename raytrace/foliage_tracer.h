@@ -27,7 +27,7 @@ struct FoliageLook {
   std::int32_t branch = -1;
 };
 
-/// Thread safe. Errors: std::runtime_error if Embree cannot start. Cost: some 700 bytes an instance.
+/// Thread safe. Errors: std::runtime_error if Embree cannot start. Cost: some 1.1 kB an instance.
 class FoliageTracer {
  public:
   explicit FoliageTracer(FoliageScene scene);
