@@ -22,7 +22,8 @@ if [ ${#files[@]} -eq 0 ]; then
   mkdir -p "$made"
   "$build/cambium" mesh "$top/examples/presets/oak.tree.toml" -o "$made/oak.glb" --quiet
   "$build/cambium" mesh "$top/examples/presets/oak.tree.toml" -o "$made/levels.glb" --lod 60k,20k,10k --quiet
-  files=("$made/oak.glb" "$made/levels.glb")
+  "$build/cambium" mesh "$top/examples/lsystems/abop_1_25.tree.toml" -o "$made/leaves.glb" --set skeleton.steps=4 --tolerance 2cm --quiet
+  files=("$made/oak.glb" "$made/levels.glb" "$made/leaves.glb")
 fi
 
 NODE_PATH="$tools/node_modules" node - "${files[@]}" <<'SCRIPT'
