@@ -1,5 +1,6 @@
 #include "cli/leaves.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/image_files.h"
@@ -12,6 +13,7 @@ namespace {
 
 const Vec3 kLeafGreen(0.17, 0.30, 0.065);   // both sides together; a third of it shines through
 constexpr double kPlainWidth = 0.5;          // of a plain leaf one unit long
+constexpr double kFarthest = 1e9;            // metres: what is beyond has no place in files and hierarchies of floats
 
 /// The recipe's, and behind them what holds where none matches.
 std::vector<LeafRecipe> rules_of(const Recipe& recipe) {
@@ -47,7 +49,17 @@ Sheet sheet_of(const LeafRecipe& rule, const FoliageMaterial& material, const Or
   return card(material.texture ? material.texture->aspect() : kPlainWidth, 1);
 }
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+double reach(const Sheet& sheet) {
+  float farthest = 0;
+  for (const glm::vec3& p : sheet.positions) farthest = std::max(farthest, glm::length(p));
+  return farthest;
+}
+
+/// Errors: InputError if a part of a leaf is beyond kFarthest.
+void require_near(const OrganShape& shape, const Vec3& position, double size) {
+  if (glm::length(position) + size <= kFarthest) return;
+  throw InputError({}, "a " + shape.name + " that reaches beyond 1e9 m", "leaves nearer than that");
+}
 
 /// Appends one leaf to those of its material.
 void append(const Sheet& shape, const FoliageInstance& leaf, MeshLeaves& all) {
@@ -85,11 +97,13 @@ Leaves dress_leaves(const Recipe& recipe, const Foliage& foliage, std::span<cons
   FoliageScene& scene = leaves.scene;
   for (const LeafRecipe& rule : rules) scene.materials.push_back(material_of(rule));
   std::vector<std::size_t> rule_of;   // by shape
+  std::vector<double> reaches;        // likewise
   for (const OrganShape& shape : foliage.shapes) {
     std::size_t rule = 0;
     while (!rules[rule].matches(shape.name)) ++rule;   // the last one matches all
     rule_of.push_back(rule);
     scene.shapes.push_back({sheet_of(rules[rule], scene.materials[rule], shape), static_cast<std::uint32_t>(rule)});
+    reaches.push_back(reach(scene.shapes.back().sheet));
   }
   for (std::size_t i = 0; i < foliage.organs.size(); ++i) {
     const OrganPlacement& organ = foliage.organs[i];
@@ -97,7 +111,8 @@ Leaves dress_leaves(const Recipe& recipe, const Foliage& foliage, std::span<cons
     const OrganShape& shape = foliage.shapes[organ.shape];
     // An outline's scale is its size in metres, which a card has of its own.
     const double scale = rule.scale * (rule.card && is_outline(shape.name) ? 1 : organ.scale);
-    if (!(scale > 0) || !std::isfinite(scale) || !finite(organ.position)) continue;
+    if (!(scale > 0)) continue;
+    require_near(shape, organ.position, scale * reaches[organ.shape]);
     scene.instances.push_back({organ.shape, organ.position, scale * Mat3(organ.left, organ.heading, organ.up),
                                static_cast<std::int32_t>(organ_branches[i])});
     if (shape.triangles.empty() && !rule.mesh && !rule.card) ++leaves.shapeless[shape.name];

@@ -20,7 +20,8 @@ struct Leaves {
 };
 
 /// The organs as the recipe's [[leaf]] tables have them; what none matches is as it was drawn, or a plain leaf one unit long, green.
-/// Organs without size are left out. Errors: InputError for an image or a mesh that cannot be read.
+/// Organs without size are left out. Errors: InputError for an image or a mesh that cannot be read, and for a leaf that is farther
+/// away than floats tell places apart.
 Leaves dress_leaves(const Recipe& recipe, const Foliage& foliage, std::span<const std::uint32_t> organ_branches);
 
 /// The same in job.figures, timed; nothing where the tree bears none.

@@ -25,12 +25,18 @@ void read_card(const RecipeValue& v, LeafRecipe& leaf) {
   leaf.card = {sides[0].positive_length(), sides[1].positive_length()};
 }
 
+void read_color(const RecipeValue& v, LeafRecipe& leaf) {
+  leaf.color = v.color();
+  for (int c = 0; c < 3; ++c)
+    if ((*leaf.color)[c] > 1) v.refuse("shares of light from 0 to 1");
+}
+
 const KeyRule<LeafRecipe> kLeafKeys[] = {
     {"name", read_name},
     {"size", read_card},
     {"mesh", read_mesh},
     {"scale", [](const RecipeValue& v, LeafRecipe& l) { l.scale = v.positive(); }},
-    {"color", [](const RecipeValue& v, LeafRecipe& l) { l.color = v.color(); }},
+    {"color", read_color},
     {"texture", [](const RecipeValue& v, LeafRecipe& l) { l.texture = {v.file(), v.location()}; }},
     {"translucency", [](const RecipeValue& v, LeafRecipe& l) { l.translucency = v.number(0, 1); }},
     {"roughness", [](const RecipeValue& v, LeafRecipe& l) { l.roughness = v.number(0.05, 1); }},

@@ -1,5 +1,7 @@
 #include "raytrace/foliage_tracer.h"
 
+#include "blobtree/input_error.h"
+
 #if CAMBIUM_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -22,6 +24,7 @@ using Context = RTCRayQueryContext;
 using Context = RTCIntersectContext;
 #endif
 
+constexpr std::size_t kBetweenPolls = 1024;   // instances
 constexpr double kFloatLoss = 1e-6;   // of the foliage's extent: what a place may be off once it has been through Embree
 
 struct Release {
@@ -46,6 +49,38 @@ struct Query {
 #endif
   }
 };
+
+void require(bool good, const std::string& found, const std::string& expected) {
+  if (!good) throw InputError({}, found, expected);
+}
+
+void check(const FoliageMaterial& material) {
+  const auto share = [](double value) { return value >= 0 && value <= 1; };
+  require(share(material.color.x) && share(material.color.y) && share(material.color.z), "a leaf's colour out of range", "0 to 1");
+  require(share(material.translucency), "a translucency of " + std::to_string(material.translucency), "0 to 1");
+  require(share(material.roughness), "a roughness of " + std::to_string(material.roughness), "0 to 1");
+}
+
+void check(const Sheet& sheet) {
+  const std::size_t vertices = sheet.positions.size();
+  require(sheet.normals.size() == vertices && sheet.uvs.size() == vertices, "a leaf whose vertices are incomplete",
+          "a normal and texture coordinates for each");
+  for (const auto& triangle : sheet.triangles)
+    for (const std::uint32_t corner : triangle)
+      require(corner < vertices, "a triangle of vertex " + std::to_string(corner), "one of " + std::to_string(vertices));
+}
+
+void check(const FoliageScene& scene) {
+  const auto require_item = [](std::uint32_t index, std::size_t count, const char* what) {
+    require(index < count, what + (" " + std::to_string(index)), "one of " + std::to_string(count));
+  };
+  for (const FoliageMaterial& material : scene.materials) check(material);
+  for (const FoliageShape& shape : scene.shapes) {
+    require_item(shape.material, scene.materials.size(), "a leaf of material");
+    check(shape.sheet);
+  }
+  for (const FoliageInstance& instance : scene.instances) require_item(instance.shape, scene.shapes.size(), "a leaf of shape");
+}
 
 using Corners = std::array<Vec3, 3>;
 
@@ -78,7 +113,7 @@ struct FoliageTracer::Embree {
   std::vector<Shape> shapes;
   Owned<RTCScene> top;
 
-  Embree(const FoliageScene& foliage, const Box& of)
+  Embree(const FoliageScene& foliage, const Box& of, const RunOptions& run)
       : bounds(of), center(of.center()), pad(kFloatLoss * glm::length(of.size())), device(rtcNewDevice(nullptr)) {
     if (!device) throw std::runtime_error("Embree could not start (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
     shapes.reserve(foliage.shapes.size());   // Embree keeps pointers to them
@@ -88,8 +123,15 @@ struct FoliageTracer::Embree {
       build(shapes.back());
     }
     top.reset(rtcNewScene(device.get()));
-    for (std::size_t i = 0; i < foliage.instances.size(); ++i) attach(foliage.instances[i], static_cast<unsigned>(i));
+    for (std::size_t i = 0; i < foliage.instances.size(); ++i) {
+      if (i % kBetweenPolls == 0 && run.cancelled()) return;
+      attach(foliage.instances[i], static_cast<unsigned>(i));
+    }
+    const auto go_on = [](void* options, double) { return !static_cast<const RunOptions*>(options)->cancelled(); };
+    rtcSetSceneProgressMonitorFunction(top.get(), go_on, const_cast<RunOptions*>(&run));
     rtcCommitScene(top.get());
+    rtcSetSceneProgressMonitorFunction(top.get(), nullptr, nullptr);
+    if (run.cancelled()) return;
     if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)
       throw std::runtime_error("Embree could not build its hierarchy of leaves (error " + std::to_string(error) + ")");
   }
@@ -179,10 +221,13 @@ struct FoliageTracer::Embree {
   }
 };
 
-FoliageTracer::FoliageTracer(FoliageScene scene) : scene_(std::move(scene)) {
+FoliageTracer::FoliageTracer(FoliageScene scene, const RunOptions& run) : scene_(std::move(scene)) {
+  check(scene_);
   for (const Box& box : boxes()) bounds_.extend(box);
   lift_ = 2 * kFloatLoss * glm::length(bounds_.empty() ? Vec3(0.0) : bounds_.size());
-  if (!bounds_.empty()) embree_ = std::make_unique<Embree>(scene_, bounds_);
+  if (bounds_.empty()) return;
+  embree_ = std::make_unique<Embree>(scene_, bounds_, run);
+  if (run.cancelled()) embree_.reset();
 }
 
 FoliageTracer::~FoliageTracer() = default;

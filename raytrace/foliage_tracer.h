@@ -1,6 +1,7 @@
 // Rays against leaves: Embree's triangles, each shape once, instanced.
 #pragma once
 
+#include "blobtree/run_options.h"
 #include "raytrace/foliage_scene.h"
 #include "raytrace/ray.h"
 
@@ -27,10 +28,12 @@ struct FoliageLook {
   std::int32_t branch = -1;
 };
 
-/// Thread safe. Errors: std::runtime_error if Embree cannot start. Cost: some 1.1 kB an instance.
+/// Thread safe. Cost: some 1.1 kB an instance.
 class FoliageTracer {
  public:
-  explicit FoliageTracer(FoliageScene scene);
+  /// Once run is cancelled what is made meets nothing. Errors: InputError for an index without an item, a sheet whose vertices have
+  /// not all they need, and numbers out of range; std::runtime_error if Embree cannot start.
+  explicit FoliageTracer(FoliageScene scene, const RunOptions& run = {});
   ~FoliageTracer();
   FoliageTracer(const FoliageTracer&) = delete;
   FoliageTracer& operator=(const FoliageTracer&) = delete;

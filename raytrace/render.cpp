@@ -107,10 +107,11 @@ auto with_threads(const RunOptions& run, const Work& work) {
 }  // namespace
 
 struct Renderer::Scene {
-  Scene(const Field& of, SurfaceCover cover, FoliageScene leaves) : field(of), boxes(surface_boxes(cover)), tracer(std::move(cover)) {
+  Scene(const Field& of, SurfaceCover cover, FoliageScene leaves, const RunOptions& run)
+      : field(of), boxes(surface_boxes(cover)), tracer(std::move(cover)) {
     for (const Box& box : boxes) bounds.extend(box);
     if (leaves.instances.empty()) return;
-    foliage = std::make_unique<const FoliageTracer>(std::move(leaves));
+    foliage = std::make_unique<const FoliageTracer>(std::move(leaves), run);
     for (const Box& box : foliage->boxes())
       if (!box.empty()) boxes.push_back(box);
   }
@@ -152,7 +153,8 @@ std::optional<Renderer> Renderer::make(const Field& field, const RunOptions& run
     Stopwatch watch;
     auto cover = cover_surface(field, tracing_cells(), run);
     if (!cover) return std::nullopt;
-    auto scene = std::make_unique<Scene>(field, std::move(*cover), std::move(foliage));
+    auto scene = std::make_unique<Scene>(field, std::move(*cover), std::move(foliage), run);
+    if (run.cancelled()) return std::nullopt;
     scene->seconds = watch.lap();
     return Renderer(std::move(scene));
   });

@@ -51,6 +51,7 @@ using PassFinished = std::function<void(int samples)>;
 class Renderer {
  public:
   /// nullopt if cancelled. The field must outlive it. Cost: covering the surface, and Embree's hierarchy over it.
+  /// Errors: InputError for foliage that refers to what is not there, or whose numbers are out of range.
   static std::optional<Renderer> make(const Field& field, const RunOptions& run, FoliageScene foliage = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;

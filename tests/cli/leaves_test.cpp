@@ -80,11 +80,20 @@ TEST(Leaves, TheFirstTableThatMatchesIsTheOrgans) {
   EXPECT_DOUBLE_EQ(glm::length(leaves.scene.instances[1].axes[0]), 1);
 }
 
-TEST(Leaves, OrgansWithoutSizeOrPlaceAreLeftOut) {
+TEST(Leaves, OrgansWithoutSizeAreLeftOutAndThoseBeyondFloatsRefused) {
   Foliage foliage = two_organs();
-  foliage.organs[0].scale = 0;
-  foliage.organs[1].position.x = std::numeric_limits<double>::infinity();
+  for (OrganPlacement& organ : foliage.organs) organ.scale = 0;
   EXPECT_TRUE(dress_leaves(Recipe{}, foliage, kBranches).scene.instances.empty());
+  const auto refused = [](void (*spoil)(Foliage&)) {
+    Foliage spoiled = two_organs();
+    spoil(spoiled);
+    EXPECT_THROW(dress_leaves(Recipe{}, spoiled, kBranches), InputError);
+  };
+  refused([](Foliage& f) { f.organs[1].position.x = std::numeric_limits<double>::infinity(); });
+  refused([](Foliage& f) { f.organs[1].position.x = 2e9; });
+  refused([](Foliage& f) { f.organs[0].scale = 1e300; });
+  refused([](Foliage& f) { f.organs[1].scale = std::numeric_limits<double>::infinity(); });
+  refused([](Foliage& f) { f.shapes[1].vertices[2].y = 1e99; });
 }
 
 TEST(Leaves, MergedTheyLieWhereTheyAreAndKnowWhereTheyAreHeld) {

@@ -72,6 +72,7 @@ TEST(RecipeLeaf, RefusesWhatItCannotUseNamingThePlace) {
       {"[[leaf]]\nsize = [0, 1]\n", 4, "greater than 0"},
       {"[[leaf]]\nsize = [1, 1]\nmesh = \"a.obj\"\n", 5, "not both"},
       {"[[leaf]]\nmesh = \"a.ply\"\n", 4, ".obj"},
+      {"[[leaf]]\ncolor = [0, 1.1, 0]\n", 4, "0 to 1"},
       {"[[leaf]]\nscale = -1\n", 4, "greater than 0"},
       {"[[leaf]]\ntranslucency = 1.5\n", 4, "0 to 1"},
       {"[[leaf]]\nroughness = 0\n", 4, "0.05 to 1"},

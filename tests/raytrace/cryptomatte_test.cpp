@@ -38,6 +38,7 @@ TEST(Cryptomatte, RanksFallAndAddUpToWhatIsHit) {
   EXPECT_EQ(ranks[2], id_from_hash(murmur3("branch_2")));
   EXPECT_EQ(ranks[3], 2 / 8.0f);
   EXPECT_EQ(ranks[4], id_from_hash(murmur3("ground")));
+  EXPECT_EQ(matte_name(kLeaves), "leaves");
   EXPECT_EQ(ranks[5], 1 / 8.0f);
   for (std::size_t i = 6; i < ranks.size(); ++i) EXPECT_EQ(ranks[i], 0);
 }

@@ -1,10 +1,12 @@
 #include "raytrace/foliage_tracer.h"
 
+#include "blobtree/input_error.h"
 #include "raytrace/hash.h"
 #include "tests/raytrace/foliage_scenes.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace cambium {
@@ -151,6 +153,29 @@ TEST(FoliageTracer, BoxesHoldTheirLeavesTightly) {
     EXPECT_LT(glm::distance(boxes[i].lo, corners.lo), 1e-12);
     EXPECT_LT(glm::distance(boxes[i].hi, corners.hi), 1e-12);
   }
+}
+
+TEST(FoliageTracer, RefusesWhatIsNotThereOrOutOfRange) {
+  const auto refused = [](void (*spoil)(FoliageScene&)) {
+    FoliageScene scene = scenes::level_leaf(1, 1, {});
+    spoil(scene);
+    EXPECT_THROW(FoliageTracer{std::move(scene)}, InputError);
+  };
+  refused([](FoliageScene& s) { s.instances[0].shape = 1; });
+  refused([](FoliageScene& s) { s.shapes[0].material = 1; });
+  refused([](FoliageScene& s) { s.shapes[0].sheet.triangles[0][1] = 4; });
+  refused([](FoliageScene& s) { s.shapes[0].sheet.normals.pop_back(); });
+  refused([](FoliageScene& s) { s.shapes[0].sheet.uvs.clear(); });
+  refused([](FoliageScene& s) { s.materials[0].translucency = 1.1; });
+  refused([](FoliageScene& s) { s.materials[0].roughness = std::nan(""); });
+  refused([](FoliageScene& s) { s.materials[0].color.y = -0.1; });
+}
+
+TEST(FoliageTracer, CancelledItMeetsNothing) {
+  const std::atomic<bool> cancel{true};
+  RunOptions run;
+  run.cancel = &cancel;
+  EXPECT_FALSE(FoliageTracer(crowd(50), run).occluded({{4, 4, -9}, {0, 0, 1}}));
 }
 
 TEST(FoliageTracer, NothingIsMetWhereThereIsNothing) {
