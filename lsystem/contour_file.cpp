@@ -89,7 +89,8 @@ class ContourReader {
 Vec2 on_spline(const Contour& contour, std::size_t span, double t) {
   const auto p = [&](std::size_t i) { return contour.points[(span + i) % contour.points.size()]; };
   const double s = 1 - t;
-  return (s * s * s * p(0) + (3 * t * t * t - 6 * t * t + 4) * p(1) + (3 * s * s * s - 6 * s * s + 4) * p(2) + t * t * t * p(3)) /
+  return (s * s * s * p(0) + (3 * t * t * t - 6 * t * t + 4) * p(1) + (3 * s * s * s - 6 * s * s + 4) * p(2) +
+          t * t * t * p(3)) /
          6.0;
 }
 
@@ -114,7 +115,8 @@ double read_contour_radius(std::string_view text, const std::filesystem::path& f
   const SourceText source = preprocess(text, file);
   const Contour contour = ContourReader(source).read();
   const double radius = std::sqrt(area_of(contour) / std::numbers::pi);
-  if (!(radius < 1e6)) throw InputError({file.string(), 0, 0}, "a contour of more than a million line widths", "one about a line's width");
+  if (!(radius < 1e6))
+    throw InputError({file.string(), 0, 0}, "a contour of more than a million line widths", "one about a line's width");
   return std::max(radius, kLeastRadius);
 }
 

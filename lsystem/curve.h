@@ -36,9 +36,9 @@ class Curve {
 /// form has no name: it gets the file's. Errors: InputError with the line.
 std::vector<Curve> read_curves(std::string_view text, const std::filesystem::path& file);
 
-/// The curves of a model, number 1 first: those that the `function:` and `function set:` lines of its view file name, which
-/// is MODEL.v or else the only .v of the folder; without any such line, those of the folder's .fset files, and without any
-/// of these those of its .func files, by name. Errors: InputError.
+/// The curves of a model, number 1 first: those that the `function:` and `function set:` lines of its view file name (see
+/// view_file.h); without any such line, those of the folder's .fset files, and without any of these those of its .func files,
+/// by name. Errors: InputError.
 std::vector<Curve> curves_beside(const std::filesystem::path& model);
 
 }  // namespace cambium

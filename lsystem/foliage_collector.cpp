@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t kNoShape = 0xffffffff;
 
-// Numbers about 1 are equal if they are in one cell of this size: rounding along a walk is far below it, what is to be seen far
-// above. Cells are shifted so that round numbers lie well inside of one.
+// Numbers about 1 are equal if they are in one cell of this size: rounding along a walk is far below it, what is to be seen
+// far above. Cells are shifted so that round numbers lie well inside of one.
 constexpr double kCell = 1e-5;
 constexpr double kShift = 0.318;
 

@@ -25,11 +25,11 @@ class FoliageCollector {
   using Site = OrganPlacement;
   enum class Outcome { kAdded, kNothing, kCancelled };
 
-  /// The inside of a closed outline, corners in the site's coordinates, metres. Outlines that are multiples of each other share a
-  /// shape: 10^5 leaves may be one shape and 10^5 places. kNothing: an outline without an area.
+  /// The inside of a closed outline, corners in the site's coordinates, metres. Outlines that are multiples of each other
+  /// share a shape: 10^5 leaves may be one shape and 10^5 places. kNothing: an outline without an area.
   Outcome add_outline(const Site& site, const std::vector<Vec3>& corners, const RunOptions& run);
-  /// A named surface, stretched along left, heading and up. Where only the name is known, it has no triangles and is scaled by
-  /// the largest of the three. kNothing: stretched by 0.
+  /// A named surface, stretched along left, heading and up. Where only the name is known, it has no triangles and is scaled
+  /// by the largest of the three. kNothing: stretched by 0.
   Outcome add_surface(const Site& site, const std::string& name, const Vec3& stretch);
   Outcome add_sphere(const Site& site, double diameter);
   Outcome add_disc(const Site& site, double diameter);  ///< in the plane of heading and left

@@ -34,8 +34,8 @@ Cubic b_spline(const std::vector<ControlPoint>& before, const ControlPoint& last
 /// 0 where one of the two has no direction.
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)); }
 
-/// The most by which a chord turns from the one before it; beside a stretch's ends, where another chord will do the same, from
-/// half way.
+/// The most by which a chord turns from the one before it; beside a stretch's ends, where another chord will do the same,
+/// from half way.
 double most_turn(const Cubic& curve, int chords) {
   double most = 0;
   Vec3 before(0.0), last = curve.at(0);

@@ -10,14 +10,14 @@ namespace cambium {
 /// The turtle where it passed a control point.
 struct ControlPoint {
   Vec3 position{0.0};
-  Vec3 heading{0, 0, 1};     ///< unit
+  Vec3 heading{0, 0, 1};  ///< unit
   double radius = 0;
-  double tangent_in = 1.2;   ///< of the curve towards the point and away from it: the tangents' lengths, in chords
+  double tangent_in = 1.2;  ///< of the curve towards the point and away from it: the tangents' lengths, in chords
   double tangent_out = 1.2;
 };
 
-/// What a control point adds to the axis: at least two samples, or none. Neighbouring chords differ by no more than 8 degrees,
-/// where 64 chords are enough for that.
+/// What a control point adds to the axis: at least two samples, or none. Neighbouring chords differ by no more than 8
+/// degrees, where 64 chords are enough for that.
 using AxisStretch = std::vector<AxisSample>;
 
 /// An axis as it grows from point to point.
@@ -28,8 +28,8 @@ class GeneralizedCylinder {
   explicit GeneralizedCylinder(Curve curve = Curve::kHermite, bool closed = false) : curve_(curve), closed_(closed) {}
 
   bool passes_its_points() const { return curve_ == Curve::kHermite; }
-  /// A Hermite curve goes through all points, along their headings, from the second on; a uniform cubic B-spline begins with the
-  /// fourth. Radii change evenly from one point to the next.
+  /// A Hermite curve goes through all points, along their headings, from the second on; a uniform cubic B-spline begins with
+  /// the fourth. Radii change evenly from one point to the next.
   AxisStretch pass(const ControlPoint& point);
   /// Of a closed curve, what leads back to where it began.
   std::vector<AxisStretch> close();

@@ -27,8 +27,8 @@ class OpenCylinders {
   OpenCylinder& operator[](Number number) { return open_[static_cast<std::size_t>(number)]; }
   const OpenCylinder& operator[](Number number) const { return open_[static_cast<std::size_t>(number)]; }
 
-  /// Whether the wood at `depth` is the cylinder's. What is drawn in brackets inside of @Gs and @Ge is a branch like others, until
-  /// it has a control point of its own.
+  /// Whether the wood at `depth` is the cylinder's. What is drawn in brackets inside of @Gs and @Ge is a branch like others,
+  /// until it has a control point of its own.
   bool hold(Number number, std::size_t depth) const {
     return number != kNone && (open_[static_cast<std::size_t>(number)].steps_are_points || is_at(number, depth));
   }

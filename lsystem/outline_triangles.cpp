@@ -18,8 +18,8 @@ Vec3 newell_normal(const std::vector<Vec3>& outline) {
   return normal;
 }
 
-/// Of outlines whose areas cancel each other, an eight say: across the widest triangle on the first corner and the one farthest
-/// from it.
+/// Of outlines whose areas cancel each other, an eight say: across the widest triangle on the first corner and the one
+/// farthest from it.
 Vec3 widest_normal(const std::vector<Vec3>& outline) {
   const Vec3 first = outline[0];
   Vec3 far(0.0), normal(0.0);
@@ -79,9 +79,7 @@ class EarClipping {
   }
 
  private:
-  double turn_at(std::uint32_t i) const {
-    return cross(flat_[i] - flat_[previous_[i]], flat_[next_[i]] - flat_[i]);
-  }
+  double turn_at(std::uint32_t i) const { return cross(flat_[i] - flat_[previous_[i]], flat_[next_[i]] - flat_[i]); }
 
   /// Takes the corner out of the ring; the one before it may be an ear now.
   std::uint32_t without(std::uint32_t i) {

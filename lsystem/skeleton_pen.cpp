@@ -48,7 +48,8 @@ void SkeletonPen::draw(Place& place, const AxisSample& from, const AxisSample& t
   }
   const double parent_radius = skeleton_.nodes[static_cast<std::size_t>(parent)].radius;
   if (std::max(from.radius, tip.radius) > parent_radius) ++radii_clamped_;
-  place.node = add({tip.position, std::min(tip.radius, parent_radius), parent, std::min(from.radius, parent_radius), lateral});
+  place.node =
+      add({tip.position, std::min(tip.radius, parent_radius), parent, std::min(from.radius, parent_radius), lateral});
   place.lateral = false;
 }
 

@@ -14,8 +14,8 @@ struct AxisSample {
   double radius = 0;
 };
 
-/// Adds internodes end to end. A piece of the skeleton begins where the pen was moved through the air; pieces that begin at one
-/// unmoved start share its node. Radii never rise towards a tip: they are lowered, and counted.
+/// Adds internodes end to end. A piece of the skeleton begins where the pen was moved through the air; pieces that begin at
+/// one unmoved start share its node. Radii never rise towards a tip: they are lowered, and counted.
 class SkeletonPen {
  public:
   /// Where a line goes on; the turtle saves and restores it at brackets.

@@ -285,7 +285,8 @@ void TurtleWalk::drop_outlines(std::size_t kept) {
 // As in cpfg the turtle goes on at the surface's end.
 void TurtleWalk::surface() {
   const std::string name = string_.names[string_.symbol[index_]].substr(1);
-  const Vec3 stretch = scale_ * grown_size() * (count() < 3 ? Vec3(parameter_or(1)) : Vec3(parameter(0), parameter(1), parameter(2)));
+  const Vec3 told = count() < 3 ? Vec3(parameter_or(1)) : Vec3(parameter(0), parameter(1), parameter(2));
+  const Vec3 stretch = scale_ * grown_size() * told;
   note(foliage_.add_surface(site(), name, stretch));
   const auto known = view_.surfaces.find(name);
   if (known == view_.surfaces.end()) return;

@@ -81,7 +81,9 @@ class TurtleWalk {
   void draw();
   void line(SkeletonPen::Place& pen, const AxisSample& from, const AxisSample& tip, double length);
   double radius() const { return radius(state_); }
-  double radius(const State& state) const { return 0.5 * state.width * options_.width_unit * (parts_ ? parts_->width(index_) : 1); }
+  double radius(const State& state) const {
+    return 0.5 * state.width * options_.width_unit * (parts_ ? parts_->width(index_) : 1);
+  }
   void set_width(double width);
   double next_width(int steps_up) const;
   void change_color(std::uint32_t steps_up);
@@ -121,7 +123,7 @@ class TurtleWalk {
   const TurtleOptions& options_;
   const RunOptions& run_;
   TurtleAnswers* const answers_;
-  const GrowthParts* parts_ = nullptr; // null: all is full-grown
+  const GrowthParts* parts_ = nullptr;  // null: all is full-grown
   const double angle_;
   std::vector<TurtleAction> actions_;  // by symbol
   std::vector<std::size_t> skipped_;   // by symbol
@@ -131,10 +133,10 @@ class TurtleWalk {
   State state_;
   SkeletonPen pen_;
   FoliageCollector foliage_;
-  std::vector<Outline> outlines_;      // that are open; brackets do not close them
+  std::vector<Outline> outlines_;  // that are open; brackets do not close them
   OpenCylinders cylinders_;
-  double scale_ = 1;                   // of lengths, by the sub-L-systems around
-  std::vector<double> callers_;        // their callers' scales
+  double scale_ = 1;             // of lengths, by the sub-L-systems around
+  std::vector<double> callers_;  // their callers' scales
   std::vector<Bracket> brackets_;
   Turtled out_;
 };

@@ -55,7 +55,8 @@ double ValueReader::positive(std::string_view what) {
   cursor_.skip_space();
   const std::size_t begin = cursor_.position();
   const double value = number(what);
-  if (!(value > 0)) cursor_.fail_at(begin, cursor_.source().text.substr(begin, cursor_.position() - begin), std::string(what) + " above 0");
+  if (!(value > 0))
+    cursor_.fail_at(begin, cursor_.source().text.substr(begin, cursor_.position() - begin), std::string(what) + " above 0");
   return value;
 }
 
@@ -83,7 +84,8 @@ Vec3 ValueReader::direction(std::string_view what) {
   const std::size_t begin = cursor_.position();
   const Vec3 out = vector(what);
   const double length = glm::length(out);
-  if (!(length > 1e-100) || !std::isfinite(length)) cursor_.fail_at(begin, "a vector without a direction", std::string(what));
+  if (!(length > 1e-100) || !std::isfinite(length))
+    cursor_.fail_at(begin, "a vector without a direction", std::string(what));
   return out / length;
 }
 

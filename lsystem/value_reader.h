@@ -17,20 +17,20 @@ class ValueReader {
 
   ValueReader(const SourceText& source, Layout layout) : cursor_(source), lines_(cursor_, layout == Layout::kFree) {}
 
-  bool at_end();                              ///< only blanks are left
-  bool at_line_end();                         ///< the same of the line
-  void next_line();                           ///< skips what is left of this one
-  Place place();                              ///< of what is next
+  bool at_end();       ///< only blanks are left
+  bool at_line_end();  ///< the same of the line
+  void next_line();    ///< skips what is left of this one
+  Place place();       ///< of what is next
 
   std::optional<double> number_if_any();
-  double number(std::string_view what);       ///< finite; `what` is what was expected
+  double number(std::string_view what);  ///< finite; `what` is what was expected
   double positive(std::string_view what);
   std::size_t count(std::string_view what, std::size_t least, std::size_t most);
-  Vec3 vector(std::string_view what);         ///< three numbers, with or without commas between them
-  Vec3 direction(std::string_view what);      ///< the same, made a unit vector
-  std::string word();                         ///< up to the next blank; empty if there is none
-  std::string word(std::string_view what);    ///< the same, which has to be there
-  std::string label();                        ///< up to a ':' on this line, in lower case, the ':' skipped; empty if there is none
+  Vec3 vector(std::string_view what);       ///< three numbers, with or without commas between them
+  Vec3 direction(std::string_view what);    ///< the same, made a unit vector
+  std::string word();                       ///< up to the next blank; empty if there is none
+  std::string word(std::string_view what);  ///< the same, which has to be there
+  std::string label();  ///< up to a ':' on this line, in lower case, the ':' skipped; empty if there is none
   bool accept(std::string_view text);
   void expect(std::string_view text);
   [[noreturn]] void fail(std::string expected);

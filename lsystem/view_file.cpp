@@ -147,9 +147,15 @@ class ViewReader {
   bool width_is_pixels_ = false;
 };
 
-std::optional<std::filesystem::path> only_one(const std::vector<std::filesystem::path>& files) {
-  if (files.size() != 1) return std::nullopt;
-  return files[0];
+/// The only file that ends so, unless it stands beside another model that it is named for.
+std::optional<std::filesystem::path> only_view(const std::filesystem::path& folder, std::string_view extension,
+                                               const std::filesystem::path& model) {
+  const auto views = files_with(folder, extension);
+  if (views.size() != 1) return std::nullopt;
+  std::filesystem::path its_model = views[0];
+  std::error_code error;
+  if (std::filesystem::is_regular_file(its_model.replace_extension(model.extension()), error)) return std::nullopt;
+  return views[0];
 }
 
 }  // namespace
@@ -176,7 +182,7 @@ std::optional<std::filesystem::path> view_file_of(const std::filesystem::path& m
     if (std::filesystem::is_regular_file(same.replace_extension(extension), error)) return same;
   }
   for (const char* extension : {".v", ".view"})
-    if (auto only = only_one(files_with(folder, extension))) return only;
+    if (auto only = only_view(folder, extension, model)) return only;
   return std::nullopt;
 }
 

@@ -10,13 +10,15 @@
 
 namespace cambium {
 
-/// A shape in coordinates of its own: it is held at the origin, grows along y (the turtle's heading) and looks along z (its up); x is
-/// the turtle's left. One unit is a metre where a placement's scale is 1. Shapes are seen from both sides; triangles of an outline
-/// run as it does. An outline reaches 1 from the origin; a sphere and a disc (in the plane of x and y) are 1 across.
+/// A shape in coordinates of its own: it is held at the origin, grows along y (the turtle's heading) and looks along z (its up);
+/// x is the turtle's left. One unit is a metre where a placement's scale is 1. Shapes are seen from both sides; triangles of an
+/// outline run as it does. An outline reaches 1 from the origin; a sphere and a disc (in the plane of x and y) are 1 across.
 struct OrganShape {
-  std::string name;                                  ///< of `~name`; `polygon1`, `polygon2`, ... of outlines between { and }; `sphere`, `disc`
+  /// Of `~name`; `polygon1`, `polygon2`, ... of outlines between { and }; `sphere`, `disc`.
+  std::string name;
   std::vector<Vec3> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< none: only the name is known, and whoever draws it brings a shape
+  /// None: only the name is known, and whoever draws it brings a shape.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 /// One organ: a point p of its shape lies at position + scale * (p.x * left + p.y * heading + p.z * up), metres.

@@ -32,18 +32,21 @@ TEST(ContourFile, ACircleHasItsOwnRadius) {
 TEST(ContourFile, AreaCountsAndNotShape) {
   const double flat = read("24 2 closed\n" + circle_points(1, "\n"));
   std::string stretched = "24 2 closed\n";
-  for (int i = 0; i < 24; ++i) stretched += std::to_string(4 * std::cos(i * M_PI / 12)) + " " + std::to_string(std::sin(i * M_PI / 12)) + "\n";
+  for (int i = 0; i < 24; ++i)
+    stretched += std::to_string(4 * std::cos(i * M_PI / 12)) + " " + std::to_string(std::sin(i * M_PI / 12)) + "\n";
   EXPECT_NEAR(read(stretched) / (2 * flat), 1 / (3 / (2 + std::cos(M_PI / 12))), 1e-3);
 }
 
 TEST(ContourFile, RepeatedPointsMakeCorners) {
   // A square whose corners count three times is itself.
-  EXPECT_NEAR(read("cver 1 1\nname: q\npoints: 4 12\ntype: closed\n-1 -1 0 3\n1 -1 0 3\n1 1 0 3\n-1 1 0 3\n"), std::sqrt(4 / M_PI), 1e-12);
+  EXPECT_NEAR(read("cver 1 1\nname: q\npoints: 4 12\ntype: closed\n-1 -1 0 3\n1 -1 0 3\n1 1 0 3\n-1 1 0 3\n"),
+              std::sqrt(4 / M_PI), 1e-12);
 }
 
 TEST(ContourFile, OpenOnesAreClosedByAChordAndFlatOnesAreThin) {
   // Three sides of the square.
-  EXPECT_NEAR(read("cver 1 1\nname: q\npoints: 4 12\ntype: open\n-1 -1 0 3\n1 -1 0 3\n1 1 0 3\n-1 1 0 3\n"), std::sqrt(4 / M_PI), 1e-12);
+  EXPECT_NEAR(read("cver 1 1\nname: q\npoints: 4 12\ntype: open\n-1 -1 0 3\n1 -1 0 3\n1 1 0 3\n-1 1 0 3\n"),
+              std::sqrt(4 / M_PI), 1e-12);
   EXPECT_EQ(read("4 2 open\n0 0\n1 0\n2 0\n3 0\n"), 0.01);
 }
 
@@ -62,7 +65,8 @@ TEST(ContourFile, MistakesAreRefusedWhereTheyStand) {
       {"cver 2 1\n", 1, 6, "version 1 1 to 1 3, a whole number from 1 to 1"},
       {"cver 1 1\npoints: 4 4\n", 2, 1, "'name:'"},
       {"cver 1 1\nname: a\npoints: 4\ntype: closed\n", 4, 1, "a number of points, repeated ones included"},
-      {"cver 1 1\nname: a\npoints: 2 4\ntype: closed\n0 0 0 2\n0 0 0 0\n", 6, 7, "how often the point counts, a whole number from 1 to 100"},
+      {"cver 1 1\nname: a\npoints: 2 4\ntype: closed\n0 0 0 2\n0 0 0 0\n", 6, 7,
+       "how often the point counts, a whole number from 1 to 100"},
       {"cver 1 1\nname: a\npoints: 2 4\ntype: closed\n0 0 0 2\n0 0 0 3\n", 6, 8, "4 points in all"},
       {"4 2 closed\n0 0\n1e9 0\n1e9 1e9\n0 1e9\n", 0, 0, "one about a line's width"},
   };

@@ -14,7 +14,9 @@ using Curve = GeneralizedCylinder::Curve;
 
 constexpr double kDegree = M_PI / 180;
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::min(1.0, glm::dot(glm::normalize(a), glm::normalize(b)))); }
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::acos(std::min(1.0, glm::dot(glm::normalize(a), glm::normalize(b))));
+}
 
 ControlPoint at(const Vec3& position, const Vec3& heading, double radius = 0.1) {
   return {position, glm::normalize(heading), radius, 1.2, 1.2};
@@ -30,10 +32,12 @@ TEST(GeneralizedCylinder, AHermiteAxisPassesItsPointsAlongTheirHeadings) {
   EXPECT_LT(angle_between(stretch[1].position - stretch[0].position, {0, 0, 1}), 4 * kDegree);
   EXPECT_LT(angle_between(stretch.back().position - stretch[stretch.size() - 2].position, {1, 0, 0}), 4 * kDegree);
   for (std::size_t i = 2; i < stretch.size(); ++i)
-    EXPECT_LT(angle_between(stretch[i].position - stretch[i - 1].position, stretch[i - 1].position - stretch[i - 2].position), 8 * kDegree);
+    EXPECT_LT(
+        angle_between(stretch[i].position - stretch[i - 1].position, stretch[i - 1].position - stretch[i - 2].position),
+        8 * kDegree);
 }
 
-// cpfg's tangents are as long as the chord, times their parameter: the middle lies 1.2 / 8 of the chord ahead of each heading.
+// cpfg's tangents are as long as the chord, times their parameter: 1.2. Each moves the middle by an eighth of it.
 TEST(GeneralizedCylinder, TangentsAreMeasuredInChords) {
   GeneralizedCylinder axis;
   axis.pass(at({0, 0, 0}, {0, 0, 1}));
@@ -132,7 +136,9 @@ TEST(GeneralizedCylinder, HasBranchesInBrackets) {
   }
   EXPECT_EQ(roots, 1u);
   ASSERT_EQ(laterals.size(), 2u);
-  const auto base = [&](std::size_t i) { return skeleton.nodes[static_cast<std::size_t>(skeleton.nodes[i].parent)].position; };
+  const auto base = [&](std::size_t i) {
+    return skeleton.nodes[static_cast<std::size_t>(skeleton.nodes[i].parent)].position;
+  };
   EXPECT_EQ(base(laterals[0]), Vec3(0, 0, 1));
   EXPECT_EQ(base(laterals[1]), Vec3(0, 0, 2));
   // The second is a cylinder that leaves along its parent's heading.

@@ -35,15 +35,17 @@ TEST(PatchSurface, IsHeldAtItsContactPointAndGrowsAlongItsHeading) {
 
 // left is heading x up, as the turtle's is.
 TEST(PatchSurface, ItsFrameComesToThatOfTheTurtle) {
-  const PatchSurface surface = read(surface_header("X: 0 Y: 0 Z: 0", "X: 0 Y: 0 Z: 1", "X: 0 Y: 1 Z: 0") + surface_patch(), 4);
-  EXPECT_LT(glm::length(surface.shape.vertices[0] - Vec3(1, 1, 1)), 1e-9);   // (-1,1,1): left is -x
+  const PatchSurface surface =
+      read(surface_header("X: 0 Y: 0 Z: 0", "X: 0 Y: 0 Z: 1", "X: 0 Y: 1 Z: 0") + surface_patch(), 4);
+  EXPECT_LT(glm::length(surface.shape.vertices[0] - Vec3(1, 1, 1)), 1e-9);  // (-1,1,1): left is -x
   EXPECT_LT(glm::length(surface.end_point - Vec3(0, 1, 1)), 1e-12);
 }
 
 TEST(PatchSurface, MayHaveSeveralPatchesAndAPrecision) {
   const std::string header = surface_header();
   const std::size_t second_line = header.find('\n') + 1;
-  const std::string precise = "VERSION stedit\n" + header.substr(0, second_line) + "PRECISION  S: 5 T: 5\n" + header.substr(second_line);
+  const std::string precise =
+      "VERSION stedit\n" + header.substr(0, second_line) + "PRECISION  S: 5 T: 5\n" + header.substr(second_line);
   EXPECT_EQ(read(precise + surface_patch() + surface_patch()).shape.triangles.size(), 256u);
 }
 
@@ -69,7 +71,8 @@ TEST(PatchSurface, MistakesAreRefusedWhereTheyStand) {
       {surface_header("X: 0 Y: Z: 0"), 2, 24, "a coordinate"},
       {surface_header("X: 0 Z: 0"), 2, 21, "'Y:'"},
       {surface_header("X: 0 Y: 0 Z: 0", "X: 0 Y: 0 Z: 0"), 5, 1, "a heading before this"},
-      {surface_header("X: 0 Y: 0 Z: 0", "X: 0 Y: 1 Z: 0", "X: 0 Y: 3 Z: 0"), 6, 1, "an up vector across the heading before this"},
+      {surface_header("X: 0 Y: 0 Z: 0", "X: 0 Y: 1 Z: 0", "X: 0 Y: 3 Z: 0"), 6, 1,
+       "an up vector across the heading before this"},
       {surface_header("X: 0 Y: 0 Z: 0", "X: 0 Y: 1 Z: 0", "X: 0 Y: 0 Z: 1", "0"), 6, 7, "a size above 0"},
       {good, 6, 8, "the name of a patch"},
       {good + "patch\nBOTTOM", 8, 1, "'TOP'"},

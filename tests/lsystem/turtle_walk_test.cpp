@@ -67,9 +67,7 @@ TEST(TurtleWalk, OutlinesAreNotNestedWithoutEnd) {
   EXPECT_THROW(interpret(test::derived(system, 17), system, {}, {}), InputError);
 }
 
-TEST(TurtleWalk, OutlinesWithoutAnAreaAreLeftOut) {
-  EXPECT_EQ(turtled("{}{.}{.F|F}}").skipped.at("}"), 4u);
-}
+TEST(TurtleWalk, OutlinesWithoutAnAreaAreLeftOut) { EXPECT_EQ(turtled("{}{.}{.F|F}}").skipped.at("}"), 4u); }
 
 TEST(TurtleWalk, LeavesOfTheBushAreOneShape) {
   std::string axiom;

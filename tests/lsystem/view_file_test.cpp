@@ -13,7 +13,8 @@ TEST(ViewFile, TellsOfThePlantAndNotOfThePicture) {
   const ViewFile view = read(
       "angle factor: 40\ninitial color: 72\ncolor increment: 2\ninitial line width: 0.20\nline width increment: 0.02\n"
       "viewpoint: -1,0,30\nz buffer: on\nline style: cylinder\n\nlight: V:5.0 6.0 10.0\n/* nothing */\n"
-      "surface: p petal.s 2 6 6\nsurface: l leaf.s 6\ncontour: 1 SEPAL.con\nfunction set: functions.fset\nfunction: a.func 100\n");
+      "surface: p petal.s 2 6 6\nsurface: l leaf.s 6\ncontour: 1 SEPAL.con\nfunction set: functions.fset\nfunction: a.func "
+      "100\n");
   EXPECT_NEAR(view.settings.angle.value(), M_PI / 20, 1e-15);
   EXPECT_EQ(view.settings.color, 72u);
   EXPECT_EQ(view.settings.color_increment, 2u);

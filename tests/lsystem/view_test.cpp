@@ -23,13 +23,15 @@ class ViewBeside : public testing::Test {
   }
   void write_surface(const std::string& name) { write(name, test::surface_header() + test::surface_patch()); }
 
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() /
-                                        (std::string("cambium_view_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      (std::string("cambium_view_") + testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
 TEST_F(ViewBeside, SetsWhatTheOptionsLeaveOpen) {
-  write("tree.v", "angle factor: 12\ninitial line width: 0.5\nline width increment: 0.1\ninitial color: 7\ncolor increment: 3\n"
-                  "tropism direction: 1,0,0\ninitial elasticity: 0.5\nviewpoint: 0,0,1\n");
+  write("tree.v",
+        "angle factor: 12\ninitial line width: 0.5\nline width increment: 0.1\ninitial color: 7\ncolor increment: 3\n"
+        "tropism direction: 1,0,0\ninitial elasticity: 0.5\nviewpoint: 0,0,1\n");
   const Turtled viewed = turtled("F!F##+F;@O");
   EXPECT_EQ(viewed.skeleton.nodes[1].radius, 0.25);
   EXPECT_NEAR(viewed.skeleton.nodes[2].radius, 0.2, 1e-15);
@@ -100,6 +102,15 @@ TEST_F(ViewBeside, FilesThatNothingAsksForAreNotRead) {
   EXPECT_EQ(turtled("F~k").skipped.size(), 0u);
   EXPECT_THROW(turtled("F~l"), InputError);
   EXPECT_THROW(turtled("F@#(1)"), InputError);
+}
+
+TEST_F(ViewBeside, TheOnlyViewOfTheFolderCountsUnlessItIsAnothers) {
+  write("scene.v", "initial line width: 0.5\n");
+  EXPECT_EQ(turtled("F").skeleton.nodes[0].radius, 0.25);
+  write("scene.l", "");
+  EXPECT_EQ(turtled("F").skeleton.nodes[0].radius, 0.05);
+  write("tree.view", "initial line width: 3\n");
+  EXPECT_EQ(turtled("F").skeleton.nodes[0].radius, 1.5);
 }
 
 TEST_F(ViewBeside, MistakesAreRefusedInTheFileThatHasThem) {
