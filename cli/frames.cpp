@@ -74,8 +74,8 @@ class GrowingPlant {
   Growth growth_;
 };
 
-/// Of every internode and organ.
-std::vector<Box> boxes_of(const Plant& plant) {
+/// Of every internode, and of every organ if they are drawn.
+std::vector<Box> boxes_of(const Plant& plant, bool leaves) {
   std::vector<Box> boxes;
   const std::vector<SkeletonNode>& nodes = plant.skeleton.nodes;
   for (const SkeletonNode& node : nodes) {
@@ -83,6 +83,7 @@ std::vector<Box> boxes_of(const Plant& plant) {
     if (node.parent >= 0) box.extend(nodes[static_cast<std::size_t>(node.parent)].position);
     boxes.push_back(box.padded(node.radius));
   }
+  if (!leaves) return boxes;
   for (const OrganPlacement& organ : plant.foliage.organs) {
     double reach = 0;
     for (const Vec3& vertex : plant.foliage.shapes[organ.shape].vertices) reach = std::max(reach, glm::length(vertex));
@@ -102,7 +103,7 @@ Stage stage_for(const Plant& plant, const Job& job) {
   const RenderRecipe& render = job.recipe.render;
   auto [width, height] = std::pair(render.width, render.height);
   if (!job.line.size.empty()) std::tie(width, height) = parse_image_size(job.line.size, {"--size"});
-  const std::vector<Box> boxes = boxes_of(plant);
+  const std::vector<Box> boxes = boxes_of(plant, job.recipe.leaves);
   const View view = frame(render.camera, boxes, width, height);
   Box whole;
   for (const Box& box : boxes) whole.extend(box);

@@ -108,7 +108,7 @@ void DialectTurtle::set_width(double width) {
 }
 
 void DialectTurtle::draw(const std::string& cpfg, double length) {
-  const bool own_width = count_ > 1;
+  const bool own_width = count_ > 1 && parameters_[1] > 0;  // L-Py's cones may end in a point
   if (own_width) emit("!", {houdini_ ? parameters_[1] : 2 * parameters_[1] * state_.scale});
   emit(cpfg, {length});
   if (own_width && houdini_) emit("!", {state_.width});

@@ -24,7 +24,7 @@ TEST(DialectTurtle, LpyRollsTheOtherWayRound) {
 
 TEST(DialectTurtle, LpyWidthsAreRadii) {
   EXPECT_EQ(from_lpy("_(2)!(3)SetWidth(4)_!@O(1)"), "#(4)!(6)!(8)#!@O(2)");
-  EXPECT_EQ(from_lpy("F(3,2)"), "!(4)F(3)");
+  EXPECT_EQ(from_lpy("F(3,2)F(3,0)"), "!(4)F(3)F(3)");
 }
 
 TEST(DialectTurtle, LpyTurnsSixtyDegreesUnlessTold) {
