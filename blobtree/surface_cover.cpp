@@ -60,6 +60,9 @@ class SurfaceCover::TapeStore {
 namespace {
 
 constexpr double kMostRadii = 1e9;   // cells of so many are as large as they get
+// Where there are too many cells they grow by this much from one attempt to the next. After the second that grows as well: where bounds
+// cannot tell that a volume is empty there may be thousands of times too many.
+constexpr double kGrowth = 1.5;
 
 double longest_edge(const Box& box) {
   const Vec3 size = box.size();
@@ -209,7 +212,8 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
   }
   ProgressMeter progress(run, "covering the surface");
   tbb::task_arena arena(run.threads > 0 ? run.threads : tbb::task_arena::automatic);
-  for (;;) {
+  double coarser = kGrowth;
+  for (int attempt = 1;; ++attempt) {
     CoverRun::Shared shared{*field.tree_, options.max_cells, {}, {}, {}, {}};
     bool complete = false;
     arena.execute([&] {
@@ -222,9 +226,10 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
         throw InputError({}, fmt::format("cells of {:g} m", *options.cell),
                          fmt::format("a size that gives at most {} cells", options.max_cells));
       }
-      rule.radii *= 1.5;
-      rule.sparse_radii *= 1.5;
-      rule.sagitta *= 1.5 * 1.5;
+      rule.radii *= coarser;
+      rule.sparse_radii *= coarser;
+      rule.sagitta *= coarser * coarser;
+      if (attempt > 1) coarser *= kGrowth;
       if (!(rule.radii < kMostRadii)) {
         throw InputError({}, fmt::format("at most {} cells", options.max_cells), "as many as the coarsest cover takes");
       }

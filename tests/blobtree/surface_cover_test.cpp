@@ -413,6 +413,17 @@ TEST(SurfaceCover, RaisesItsLengthsRatherThanHoldTooManyCells) {
   for (const Vec3& p : surface) ASSERT_TRUE(cells.holds(p, 1e-9));
 }
 
+TEST(SurfaceCover, SoonRaisesItsLengthsEnoughWhereThereAreThousandsOfTimesTooManyCells) {
+  const Field field = trunk_and_twig();
+  CoverOptions fine;
+  fine.cell_radii = fine.sparse_radii = 0.1;
+  const std::size_t wanted = cover_surface(field, fine, {}).value().size();
+  fine.max_cells = wanted / 2000;
+  const SurfaceCover cover = cover_surface(field, fine, {}).value();
+  EXPECT_LE(cover.size(), fine.max_cells);
+  EXPECT_GT(cover.size(), fine.max_cells / 100);
+}
+
 TEST(SurfaceCover, RaisesTheSagittaTooRatherThanHoldTooManyCells) {
   CoverOptions options;
   options.sagitta = 1e-4;
