@@ -226,19 +226,11 @@ class CoursePolicy {
   Evaluator::Scratch& at_;
 };
 
-/// Around the centre of a bend's arc nothing of the child reaches: whatever the way does there, the child is 0.
-bool is_at_centre(const Warp& warp, const Ball& ball) {
-  const auto* const bend = std::get_if<BendWarp>(&warp);
-  if (!bend) return false;
-  const Vec3 q = ball.center - bend->center;
-  return std::hypot(glm::dot(q, bend->u), glm::dot(q, bend->d)) + ball.radius < bend->inner * (1 - 1e-9);
-}
-
 /// The way on the inner side of a warp.
 Way inside(const Warp& warp, const Way& outside) {
   Way way;
   way.half = outside.half;
-  if (outside.certain && is_at_centre(warp, outside.ball)) {
+  if (outside.certain && misses_child(warp, outside.ball)) {
     way.straight = false;
     way.ball = {unwarp(warp, outside.ball.center), 0};
     way.speed = 0;

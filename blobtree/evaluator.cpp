@@ -134,7 +134,11 @@ Interval Evaluator::Scratch::interval(const CompiledTree& tree, const Tape& tape
   balls.resize(tape_view.frame_count());
   // Bounds and values round differently: a hair wider.
   balls[0] = {{ball.center, ball.radius * (1 + 1e-12) + 1e-15 * glm::length(ball.center)}, true};
-  for (std::size_t k = 1; k < balls.size(); ++k) balls[k] = unwarp(tape_view.warp_of(k), balls[tape_view.outside_of(k)].ball);
+  for (std::size_t k = 1; k < balls.size(); ++k) {
+    const Warp& warp = tape_view.warp_of(k);
+    const Ball& outside = balls[tape_view.outside_of(k)].ball;
+    balls[k] = misses_child(warp, outside) ? UnwarpedBall{{unwarp(warp, outside.center), 0}, true} : unwarp(warp, outside);
+  }
   BallPolicy policy(tape_view, balls, shapes);
   return a_hair_wider(run_tape(tape_view, policy, intervals));
 }

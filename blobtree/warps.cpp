@@ -222,6 +222,13 @@ UnwarpedBall unwarp(const Warp& warp, const Ball& ball) {
   return {{unwarp(warp, ball.center), ball.radius * s.factor * (1 + 1e-12)}, s.certain};
 }
 
+bool misses_child(const Warp& warp, const Ball& ball) {
+  const auto* const bend = std::get_if<BendWarp>(&warp);
+  if (!bend) return false;
+  const Vec3 q = ball.center - bend->center;
+  return std::hypot(glm::dot(q, bend->u), glm::dot(q, bend->d)) + ball.radius < bend->inner * (1 - 1e-9);
+}
+
 // ---- boxes --------------------------------------------------------------------------------------------------------
 
 static WarpFrame frame_of(const RigidWarp&) { return {Vec3(0.0), Mat3(1.0)}; }

@@ -60,6 +60,8 @@ struct UnwarpedBall {
   bool certain = true;
 };
 UnwarpedBall unwarp(const Warp& warp, const Ball& ball);
+/// Whether nothing of the child reaches into a ball, around the centre of a bend's arc: whatever W^-1 makes of it, the child is 0.
+bool misses_child(const Warp& warp, const Ball& ball);
 
 /// Extents of a child along the warp's own axes (first the axis of the warp, then two normals of it), relative to its anchor.
 struct WarpFrame {

@@ -80,6 +80,16 @@ TEST(Bend, MovesVelocitiesAsItMovesPointsAndTellsHowFarTheyTurn) {
   }
 }
 
+TEST(Bend, BoundsNearTheCentreOfItsArcTellThatNothingIsThere) {
+  const Field field = warped(Capsule{kO, kPi / 2 * kZ, 0.1, 1}, [](NodeId id) { return Bend{kO, kZ, kX, kPi, id}; });   // rho = 0.5
+  const Vec3 centre(0, 0, 0.5);
+  const PrunedField whole = field.whole();
+  Evaluator evaluator;
+  for (const double radius : {1e-3, 0.05, 0.25}) EXPECT_EQ(evaluator.interval(whole, Ball{centre, radius}).hi, 0) << radius;
+  EXPECT_EQ(evaluator.interval(whole, Ball{centre + Vec3(-0.1, 0, 0.02), 0.1}).hi, 0);
+  EXPECT_GE(evaluator.interval(whole, Ball{centre, 0.5}).hi, 1);   // up to the axis
+}
+
 TEST(Transform, MovesTheChild) {
   Mat4 m(0.0);  // x -> y -> z -> x, twice as large, then up by 3
   m[0][1] = m[1][2] = m[2][0] = 2;
