@@ -6,7 +6,7 @@ set(public_headers
   blobtree/id_table.h blobtree/input_error.h blobtree/invalid_node.h blobtree/node_store.h blobtree/nodes.h blobtree/run_options.h
   blobtree/branch_info.h blobtree/choices.h blobtree/sheet.h blobtree/surface_cover.h
   skeletons/foliage.h skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
-  lsystem/dialect.h lsystem/growth.h lsystem/growth_parts.h lsystem/lsystem.h lsystem/source_text.h
+  lsystem/dialect.h lsystem/growth.h lsystem/growth_parts.h lsystem/lsystem.h
   polygonize/ambient_occlusion.h polygonize/decimate.h polygonize/mesh.h polygonize/mesh_attributes.h polygonize/mesh_io.h
   polygonize/polygonize.h polygonize/verify.h polygonize/volume.h
   raytrace/aov.h raytrace/bark.h raytrace/bark_noise.h raytrace/bark_number.h raytrace/bark_pattern.h raytrace/camera.h

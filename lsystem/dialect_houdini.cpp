@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lsystem/dialect.h"
+#include "lsystem/dialect_translation.h"
 #include "lsystem/dialect_text.h"
 #include "lsystem/module_parser.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "lsystem/dialect.h"
+#include "lsystem/dialect_translation.h"
 #include "lsystem/dialect_text.h"
 #include "lsystem/lpy_cursor.h"
 #include "lsystem/lpy_strings.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lsystem/array_definitions.h"
+#include "lsystem/dialect_translation.h"
 #include "lsystem/lsystem.h"
 #include "lsystem/module_parser.h"
 #include "lsystem/preprocessor.h"

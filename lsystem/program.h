@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "lsystem/bytecode.h"
-#include "lsystem/dialect.h"
+#include "lsystem/dialect_translation.h"
 #include "lsystem/view.h"
 
 namespace cambium {
