@@ -26,9 +26,11 @@ struct Frame {
 
 void check_request(const Job& job) {
   const double step = *job.line.growth_step;
-  if (!(step > 0) || !std::isfinite(step)) throw InputError({"--step"}, fmt::format("{}", step), "a number of derivation steps above 0");
+  if (!(step > 0) || !std::isfinite(step))
+    throw InputError({"--step"}, fmt::format("{}", step), "a number of derivation steps above 0");
   if (job.source_kind != InputKind::kLSystem)
-    throw InputError({job.source.string()}, "no L-system", "an L-system (.l .lpy) or a recipe with one: --step is of what grows");
+    throw InputError({job.source.string()}, "no L-system",
+                     "an L-system (.l .lpy) or a recipe with one: --step is of what grows");
   if (job.line.turntable) throw InputError({"--turntable"}, "a turntable beside --step", "one of them");
   if (job.line.close_up || job.recipe.render.close_up)
     throw InputError(job.line.close_up ? SourceLocation{"--close-up"} : job.recipe.render.close_up->at,
@@ -120,8 +122,8 @@ void set_stage(const Stage& stage, RenderRecipe& render) {
 }
 
 /// One frame: the command as if it were called for it alone, with what has grown in place of the input's own tree.
-Outcome make_frame(Job& job, const Frame& frame, Plant plant, const std::optional<Stage>& stage,
-                   Outcome (*command)(Job&), Json& made) {
+Outcome make_frame(Job& job, const Frame& frame, Plant plant, const std::optional<Stage>& stage, Outcome (*command)(Job&),
+                   Json& made) {
   CommandLine line = job.line;
   line.growth_step.reset();
   line.frame.reset();
@@ -162,7 +164,8 @@ Outcome run_frames(Job& job, Outcome (*command)(Job&)) {
       ++left_out;
       continue;
     }
-    if (make_frame(job, frame, std::move(*plant), stage, command, made) == Outcome::kInterrupted) return Outcome::kInterrupted;
+    if (make_frame(job, frame, std::move(*plant), stage, command, made) == Outcome::kInterrupted)
+      return Outcome::kInterrupted;
   }
   if (made.empty()) throw InputError({job.source.string()}, "no wood at any of the times", "an L-system that draws");
   if (left_out > 0) job.warnings.push_back(fmt::format("frames without a file, since nothing has grown yet: {}", left_out));

@@ -17,7 +17,8 @@ Derivation::Derivation(const LSystem& system, const DeriveOptions& options, cons
                      "'derivation length:', or a number of steps of 0 or more");
   pass_.seed = options.seed.value_or(program_.main().seed);
   const auto& names = program_.symbols.names();
-  asks_ = std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.size() == 2 && name[0] == '?'; });
+  asks_ =
+      std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.size() == 2 && name[0] == '?'; });
 }
 
 bool Derivation::begin() {

@@ -17,8 +17,8 @@ class Derivation {
   /// Errors: InputError if nothing says how many steps.
   Derivation(const LSystem& system, const DeriveOptions& options, const RunOptions& run);
 
-  int steps() const { return steps_; }         ///< in all
-  std::uint64_t step() const { return step_; } ///< that are done
+  int steps() const { return steps_; }          ///< in all
+  std::uint64_t step() const { return step_; }  ///< that are done
   const Modules& modules() const { return modules_; }
   const std::vector<double>& variables() const { return pass_.variables; }
 

@@ -6,27 +6,27 @@
 #include <utility>
 #include <vector>
 
-#include "lsystem/dialect_translation.h"
 #include "lsystem/dialect_text.h"
+#include "lsystem/dialect_translation.h"
 #include "lsystem/module_parser.h"
 
 namespace cambium {
 namespace {
 
 struct NodeValue {
-  std::string_view name;          // as the node's panel calls it, in small letters
-  double HoudiniValues::* value;
+  std::string_view name;  // as the node's panel calls it, in small letters
+  double HoudiniValues::*value;
 };
 
 constexpr NodeValue kNodeValues[] = {
-    {"step size", &HoudiniValues::step},           {"step size scale", &HoudiniValues::step_scale},
-    {"angle", &HoudiniValues::angle},              {"angle scale", &HoudiniValues::angle_scale},
-    {"thickness", &HoudiniValues::thickness},      {"thickness scale", &HoudiniValues::thickness_scale},
+    {"step size", &HoudiniValues::step},      {"step size scale", &HoudiniValues::step_scale},
+    {"angle", &HoudiniValues::angle},         {"angle scale", &HoudiniValues::angle_scale},
+    {"thickness", &HoudiniValues::thickness}, {"thickness scale", &HoudiniValues::thickness_scale},
     {"gravity", &HoudiniValues::gravity},
 };
 
-constexpr std::string_view kFunctions[] = {"sin", "cos", "tan",  "asin", "acos", "atan", "exp", "log",
-                                           "sqrt", "floor", "ceil", "min", "max", "pow",  "abs"};
+constexpr std::string_view kFunctions[] = {"sin",  "cos",   "tan",  "asin", "acos", "atan", "exp", "log",
+                                           "sqrt", "floor", "ceil", "min",  "max",  "pow",  "abs"};
 
 /// Of a comparison, which is no `=` of a rule.
 bool comparison_at(const Cursor& in) {
@@ -66,7 +66,8 @@ class HoudiniReader {
     std::string key;
     for (; !in_.at_line_end() && in_.peek() != ':' && in_.peek() != '='; in_.advance()) {
       const char c = in_.peek() == '\t' ? ' ' : in_.peek();
-      if (c != ' ' || (!key.empty() && key.back() != ' ')) key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (c != ' ' || (!key.empty() && key.back() != ' '))
+        key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
     if (!key.empty() && key.back() == ' ') key.pop_back();
     in_.advance();
@@ -74,7 +75,8 @@ class HoudiniReader {
   }
 
   static bool is_rule_label(std::string_view key) {
-    return key.substr(0, 4) == "rule" && std::all_of(key.begin() + 4, key.end(), [](char c) { return c == ' ' || is_digit(c); });
+    return key.substr(0, 4) == "rule" &&
+           std::all_of(key.begin() + 4, key.end(), [](char c) { return c == ' ' || is_digit(c); });
   }
 
   /// A line that is no bare rule; false, the head anywhere, if it is one.
@@ -292,10 +294,12 @@ class HoudiniReader {
     const bool called = in_.peek() == '(';
     if (called && std::find(std::begin(kFunctions), std::end(kFunctions), word) != std::end(kFunctions))
       return append(out, word == "abs" ? "fabs" : word, place);
-    if (called) in_.fail_at(at, "'" + word + "(', a function of HScript", "a function of numbers: sin, max, pow and their like");
+    if (called)
+      in_.fail_at(at, "'" + word + "(', a function of HScript", "a function of numbers: sin, max, pow and their like");
     if (word == "t" || std::find(parameters_.begin(), parameters_.end(), word) != parameters_.end())
       return append(out, word, place);
-    if (word == "b" || word == "c" || word == "d") return append_number(out, constants_[static_cast<std::size_t>(word[0] - 'b')], place);
+    if (word == "b" || word == "c" || word == "d")
+      return append_number(out, constants_[static_cast<std::size_t>(word[0] - 'b')], place);
     in_.fail_at(at, "'" + word + "'", "a parameter of the rule, or b, c, d or t: what the turtle knows is out of reach");
   }
 

@@ -1,11 +1,11 @@
-// L-Py (Boudon, Pradal, Cokelaer, Prusinkiewicz, Godin 2012): Python with L-system rules in it. What is read here is the rules, and
-// of Python numbers that have names, and bodies of rules that do no more than choose what to produce.
+// L-Py (Boudon, Pradal, Cokelaer, Prusinkiewicz, Godin 2012): Python with L-system rules in it. What is read here is the
+// rules, and of Python numbers that have names, and bodies of rules that do no more than choose what to produce.
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "lsystem/dialect_translation.h"
 #include "lsystem/dialect_text.h"
+#include "lsystem/dialect_translation.h"
 #include "lsystem/lpy_cursor.h"
 #include "lsystem/lpy_strings.h"
 #include "lsystem/python_expression.h"
@@ -250,9 +250,9 @@ class LpyReader {
   LpyStrings strings_;
   MarkedText out_;
   bool axiom_seen_ = false, length_seen_ = false;
-  bool in_rules_ = false;            // behind `production:` or the like
-  MarkedText pattern_;               // of the rule being read
-  std::vector<MarkedText> guards_;   // conditions around what is being read
+  bool in_rules_ = false;           // behind `production:` or the like
+  MarkedText pattern_;              // of the rule being read
+  std::vector<MarkedText> guards_;  // conditions around what is being read
   int blocks_ = 0;
 };
 

@@ -54,8 +54,8 @@ DialectTurtle::Command DialectTurtle::houdini_command(const std::string& name) {
   return turtle_action(name) == TurtleAction::kSkip ? kKeep : kDrop;
 }
 
-DialectTurtle::DialectTurtle(const LSystemProgram& program, const TurtleOptions& options, const std::vector<std::string>& names,
-                             std::uint64_t seed)
+DialectTurtle::DialectTurtle(const LSystemProgram& program, const TurtleOptions& options,
+                             const std::vector<std::string>& names, std::uint64_t seed)
     : houdini_(program.dialect == Dialect::kHoudini),
       values_(program.houdini),
       seed_(seed),

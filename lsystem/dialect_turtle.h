@@ -11,11 +11,12 @@
 
 namespace cambium {
 
-/// Respells a string of another dialect from left to right, keeping what that dialect's turtle knows and cpfg's does not: current
-/// lengths, angles and scales, which brackets save. Cost: linear.
+/// Respells a string of another dialect from left to right, keeping what that dialect's turtle knows and cpfg's does not:
+/// current lengths, angles and scales, which brackets save. Cost: linear.
 class DialectTurtle {
  public:
-  /// `names` are those of the string to be respelled. `seed` is what random turns of Houdini's `~` depend on, and their keys.
+  /// `names` are those of the string to be respelled. `seed` is what random turns of Houdini's `~` depend on, and their
+  /// keys.
   DialectTurtle(const LSystemProgram& program, const TurtleOptions& options, const std::vector<std::string>& names,
                 std::uint64_t seed);
 
@@ -27,9 +28,9 @@ class DialectTurtle {
  private:
   enum class Command : std::uint8_t;
   struct State {
-    double length, angle, width;   // angle in degrees
-    double scale = 1;              // of L-Py's @D
-    bool bends = false;            // by Houdini's T, with the next internode
+    double length, angle, width;  // angle in degrees
+    double scale = 1;             // of L-Py's @D
+    bool bends = false;           // by Houdini's T, with the next internode
   };
 
   static Command lpy_command(const std::string& name);
@@ -48,8 +49,8 @@ class DialectTurtle {
   const bool houdini_;
   const HoudiniValues values_;
   SymbolTable symbols_;
-  std::vector<Command> commands_;            // by symbol of the string
-  std::vector<std::uint16_t> same_;          // the number of its name here
+  std::vector<Command> commands_;    // by symbol of the string
+  std::vector<std::uint16_t> same_;  // the number of its name here
   const std::uint64_t seed_;
   State state_;
   std::vector<State> saved_;

@@ -58,8 +58,9 @@ bool is_its_drawn_form(const LSystemProgram& program) {
   return program.dialect == Dialect::kCpfg && !has_homomorphism(program);
 }
 
-std::optional<ModuleString> drawn_form(const ModuleString& string, const LSystemProgram& program, const TurtleOptions& options,
-                                       const RunOptions& run, std::vector<std::uint32_t>* origins) {
+std::optional<ModuleString> drawn_form(const ModuleString& string, const LSystemProgram& program,
+                                       const TurtleOptions& options, const RunOptions& run,
+                                       std::vector<std::uint32_t>* origins) {
   ModuleString drawn;
   const bool rewrites = has_homomorphism(program);
   if (rewrites) {

@@ -36,8 +36,8 @@ std::size_t continuing(const Modules& before, std::size_t parent, const Modules&
 }
 
 /// For each module of `after` the one of `before` that it continues, or kNothing.
-std::vector<std::uint32_t> predecessors(const Modules& before, const Modules& after, const std::vector<Rewriter::Origin>& origins,
-                                        const LSystemProgram& program) {
+std::vector<std::uint32_t> predecessors(const Modules& before, const Modules& after,
+                                        const std::vector<Rewriter::Origin>& origins, const LSystemProgram& program) {
   std::vector<std::uint32_t> out(after.size(), kNothing);
   for (std::size_t begin = 0; begin < after.size();) {
     const std::uint32_t parent = origins[begin].parent;
@@ -67,7 +67,7 @@ std::vector<GrowthParts::Stage> stages_of(const ModuleString& drawn, const std::
   std::vector<TurtleAction> actions;
   for (const std::string& name : drawn.names) actions.push_back(turtle_action(name));
   std::vector<Stage> stages(drawn.size(), Stage::kOld);
-  std::vector<bool> outside;   // whether there is something old behind each branch around this place
+  std::vector<bool> outside;  // whether there is something old behind each branch around this place
   bool old_behind = false;
   for (std::size_t i = drawn.size(); i-- > 0;) {
     const TurtleAction action = actions[drawn.symbol[i]];
@@ -95,10 +95,10 @@ struct Growth::Step {
   double time() const { return static_cast<double>(derivation.step()); }
 
   Derivation derivation;
-  bool has_before = false;                 // the three below are there
+  bool has_before = false;  // the three below are there
   Modules before;
   std::vector<double> variables_before;
-  std::vector<std::uint32_t> predecessors; // in `before`
+  std::vector<std::uint32_t> predecessors;  // in `before`
 };
 
 Growth::Growth(const LSystem& system, const DeriveOptions& options, const RunOptions& run)

@@ -9,7 +9,7 @@ namespace cambium {
 
 struct GrowthParts {
   enum class Stage : std::uint8_t {
-    kOld,          ///< it, or what it continues, was there before the step
+    kOld,  ///< it, or what it continues, was there before the step
     kNew,
     kNewBelowOld,  ///< new, and something old that is drawn stands behind it in its branch
   };

@@ -18,7 +18,8 @@ class LpyCursor : public Cursor {
 
   /// To the first character of the next line that is not blank, or of this one; false at the end of the file.
   bool next_line();
-  /// Columns of white space before the first character of the line, where the head is; a tab leads to the next multiple of 8.
+  /// Columns of white space before the first character of the line, where the head is; a tab leads to the next multiple
+  /// of 8.
   int line_indent() const;
   /// Whether the next line that is not blank is indented deeper; then the head moves to it.
   bool enter_deeper_line(int indent);

@@ -13,7 +13,8 @@ class LpyStrings {
  public:
   explicit LpyStrings(LpyCursor& in) : in_(in) {}
 
-  /// A successor up to the end of its line, and over further ones that are indented deeper than `indent`. `*`, or nothing: none.
+  /// A successor up to the end of its line, and over further ones that are indented deeper than `indent`. `*`, or nothing:
+  /// none.
   MarkedText successor(int indent);
   /// `left < strict > right` up to the arrow or colon. Its parameters are added to names.parameters.
   MarkedText predecessors();

@@ -14,18 +14,20 @@ struct KnownName {
 // L-Py's help card.
 constexpr KnownName kKnown[] = {
     {"SB", "["}, {"EB", "]"}, {"Pinpoint", ""}, {"PinpointRel", ""}, {"@R", ""}, {"SetHead", "@R"}, {"EulerAngles", ""},
-    {"Left", "+"}, {"Right", "-"}, {"Up", "^"}, {"Down", "&"}, {"RollL", "/"}, {"RollR", "\\"}, {"iRollL", ""}, {"iRollR", ""},
-    {"TurnAround", "|"}, {"@v", ""}, {"RollToVert", "@v"}, {"LeftReflection", ""}, {"UpReflection", ""},
+    {"Left", "+"}, {"Right", "-"}, {"Up", "^"}, {"Down", "&"}, {"RollL", "/"}, {"RollR", "\\"}, {"iRollL", ""},
+    {"iRollR", ""}, {"TurnAround", "|"}, {"@v", ""}, {"RollToVert", "@v"}, {"LeftReflection", ""}, {"UpReflection", ""},
     {"HeadingReflection", ""}, {"@M", ""}, {"MoveTo", "@M"}, {"MoveRel", ""}, {"@2D", ""}, {"StartScreenProjection", "@2D"},
     {"@3D", ""}, {"EndScreenProjection", "@3D"}, {"@Dd", ""}, {"DivScale", "@Dd"}, {"@Di", ""}, {"MultScale", "@Di"},
     {"@D", ""}, {"SetScale", "@D"}, {"nF", ""}, {"@Gc", ""}, {"StartGC", "@Gc"}, {"@Ge", ""}, {"EndGC", "@Ge"}, {"BP", "{"},
-    {"EP", "}"}, {"PP", "."}, {"LineTo", ""}, {"OLineTo", ""}, {"LineRel", ""}, {"OLineRel", ""}, {"@O", ""}, {"Sphere", "@O"},
+    {"EP", "}"}, {"PP", "."}, {"LineTo", ""}, {"OLineTo", ""}, {"LineRel", ""}, {"OLineRel", ""}, {"@O", ""},
+    {"Sphere", "@O"},
     {"@B", ""}, {"Box", "@B"}, {"@b", ""}, {"Quad", "@b"}, {"@o", ""}, {"Circle", "@o"}, {"@L", ""}, {"Label", "@L"},
     {"surface", ""}, {"@g", ""}, {"PglShape", "@g"}, {"Frame", ""}, {"SetContour", ""}, {"SectionResolution", ""},
     {"SetGuide", ""}, {"EndGuide", ""}, {"Sweep", ""}, {"PositionOnGuide", ""}, {"IncWidth", "_"}, {"DecWidth", "!"},
     {"SetWidth", ""}, {"IncColor", ";"}, {"DecColor", ","}, {"SetColor", ""}, {"InterpolateColors", ""}, {"@Ts", ""},
     {"Elasticity", "@Ts"}, {"@Tp", ""}, {"Tropism", "@Tp"}, {"?P", ""}, {"GetPos", "?P"}, {"?H", ""}, {"GetHead", "?H"},
-    {"?U", ""}, {"GetUp", "?U"}, {"?L", ""}, {"GetLeft", "?L"}, {"?R", ""}, {"GetRight", "?R"}, {"?F", ""}, {"GetFrame", "?F"},
+    {"?U", ""}, {"GetUp", "?U"}, {"?L", ""}, {"GetLeft", "?L"}, {"?R", ""}, {"GetRight", "?R"}, {"?F", ""},
+    {"GetFrame", "?F"},
     {"TextureScale", ""}, {"TextureUScale", ""}, {"TextureVScale", ""}, {"TextureVCoeff", "TextureVScale"},
     {"TextureTranslation", ""}, {"TextureRotation", ""}, {"TextureTransformation", ""}, {"Cut", "%"}};
 

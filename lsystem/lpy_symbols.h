@@ -12,8 +12,8 @@ class LpySymbols {
  public:
   void declare(const std::string& name) { declared_.insert(name); }
 
-  /// The symbol at the head, by L-Py's rule the longest name that it knows, or else one character; where L-Py has two names for
-  /// one module the shorter. Empty where none can stand. Errors: InputError for a '@' or '?' that is no name of L-Py's.
+  /// The symbol at the head, by L-Py's rule the longest name that it knows, or else one character; where L-Py has two names
+  /// for one module the shorter. Empty where none can stand. Errors: InputError for a '@' or '?' that is no name of L-Py's.
   std::string read(Cursor& in) const;
 
  private:

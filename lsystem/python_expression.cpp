@@ -60,7 +60,8 @@ class Translator {
   class Nesting {
    public:
     explicit Nesting(Translator& of) : of_(of) {
-      if (++of_.nesting_ > kMaxNesting) of_.in_.fail_at(of_.in_.position(), "nesting deeper than 60", "a simpler expression");
+      if (++of_.nesting_ > kMaxNesting)
+        of_.in_.fail_at(of_.in_.position(), "nesting deeper than 60", "a simpler expression");
     }
     ~Nesting() { --of_.nesting_; }
     Nesting(const Nesting&) = delete;
@@ -244,8 +245,9 @@ class Translator {
     else if (names_.math && (name == "pi" || name == "e"))
       append_number(out, name == "e" ? std::numbers::e : std::numbers::pi, place);
     else
-      in_.fail_at(begin, "'" + name + "'", is_python_keyword(name) ? "a number: this is Python"
-                                                                   : "a parameter of the rule, or a number assigned before the axiom");
+      in_.fail_at(begin, "'" + name + "'",
+                  is_python_keyword(name) ? "a number: this is Python"
+                                          : "a parameter of the rule, or a number assigned before the axiom");
     return out;
   }
 
@@ -282,10 +284,10 @@ MarkedText python_expression(Cursor& in, const PythonNames& names) { return Tran
 
 bool is_python_keyword(const std::string& word) {
   static constexpr std::string_view kWords[] = {
-      "and",  "as",   "assert", "async", "await",    "break", "class",  "continue", "def",   "del",   "elif",  "else", "except",
-      "exec", "finally", "for", "from",  "global",   "if",    "import", "in",       "is",    "lambda", "nonlocal", "not", "or",
-      "pass", "print", "raise", "return", "try",     "while", "with",   "yield",    "lpyimport", "nproduce", "sproduce",
-      "nsproduce", "produce"};
+      "and",    "as",     "assert", "async",    "await", "break", "class", "continue", "def",    "del",      "elif",
+      "else",   "except", "exec",   "finally",  "for",   "from",  "global", "if",      "import", "in",       "is",
+      "lambda", "nonlocal", "not",  "or",       "pass",  "print", "raise", "return",   "try",    "while",    "with",
+      "yield",  "lpyimport", "nproduce", "sproduce", "nsproduce", "produce"};
   return std::find(std::begin(kWords), std::end(kWords), word) != std::end(kWords);
 }
 

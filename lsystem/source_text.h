@@ -24,8 +24,8 @@ inline SourceLocation located(const std::vector<std::string>& files, const Place
 
 /// Characters and their places, index by index; `end` is the place behind the last one.
 struct SourceText {
-  /// Stands before and behind a symbol's name in what was translated from another dialect (dialect_translation.h), whose symbols may be
-  /// of several characters, or of such as mean something else in cpfg's language.
+  /// Stands before and behind a symbol's name in what was translated from another dialect (dialect_translation.h), whose
+  /// symbols may be of several characters, or of such as mean something else in cpfg's language.
   static constexpr char kNameMark = '\x1e';
 
   std::string text;
