@@ -146,7 +146,7 @@ class SurfaceOctree::Sampler {
     find_suspects(field, static_cast<float>(step));
   }
 
-  // An outside corner between sheets that are closer than narrow() along an axis becomes an inside one. Every cell that has the
+  // An outside corner between sheets that are closer than narrow() along some way becomes an inside one. Every cell that has the
   // corner asks the same field, that of the cover's cell it is in (low faces included), also a little beyond it.
   void fill_cracks(const SurfaceOctree& tree, const PrunedField& field, std::uint32_t cell, const CellPlace& place, int level) {
     const double width = tree.narrow();
@@ -171,8 +171,8 @@ class SurfaceOctree::Sampler {
             home = tree.cover_->cube_field(*found);
             if (!may_be_cracked(home, width)) continue;
           }
-          // No field of these radii falls by more over that way, but for scars.
-          const double reach = std::min(static_cast<double>(kFarthest), 2 * width / home.smallest_radius());
+          // One of the sheets is within half the width, and no field of these radii falls by more over that way, but for scars.
+          const double reach = std::min(static_cast<double>(kFarthest), width / home.smallest_radius());
           if (static_cast<double>(f_[i]) < -reach - static_cast<double>(kDoubtfulValue)) continue;
           const Vec3 p = tree.point(corner);
           if (evaluator_.value(home, p) - kIso < -reach || !in_crack(home, p, width)) continue;
@@ -198,20 +198,29 @@ class SurfaceOctree::Sampler {
 
   bool in_crack(const PrunedField& field, const Vec3& p, double width) {
     crack_.clear();
-    for (int a = 0; a < 3; ++a)
-      for (int k = 1; k < kCrackSteps; ++k)
-        for (const int side : {-1, 1}) {
-          Vec3 q = p;
-          q[a] += side * width * k / kCrackSteps;
-          crack_.add(field, q);
-        }
+    for (const Vec3& way : kCrackWays)
+      for (int k = 1; k <= kCrackSteps / 2; ++k)
+        for (const int side : {-1, 1}) crack_.add(field, p + (side * width * k / kCrackSteps) * way);
     crack_.evaluate_values(evaluator_, field);
-    const auto inside = [&](int a, int k, int side) {
-      return crack_.value(static_cast<std::size_t>(2 * ((kCrackSteps - 1) * a + k - 1) + side)) >= 0;
-    };
-    for (int a = 0; a < 3; ++a)
-      for (int k = 1; k < kCrackSteps; ++k)
-        if (inside(a, k, 0) && inside(a, kCrackSteps - k, 1)) return true;
+    far_.clear();
+    std::size_t i = 0;
+    for (const Vec3& way : kCrackWays) {
+      std::array<int, 2> nearest{kCrackSteps, kCrackSteps};   // steps to the wood on either side
+      for (int k = 1; k <= kCrackSteps / 2; ++k)
+        for (int& steps : nearest)
+          if (crack_.value(i++) >= 0) steps = std::min(steps, k);
+      const int near = std::min(nearest[0], nearest[1]);
+      if (near == kCrackSteps) continue;
+      if (nearest[0] + nearest[1] <= kCrackSteps) return true;
+      const int side = nearest[0] == near ? 1 : -1;
+      for (int k = kCrackSteps / 2 + 1; k <= kCrackSteps - near; ++k) far_.push_back(p + (side * width * k / kCrackSteps) * way);
+    }
+    if (far_.empty()) return false;
+    crack_.clear();
+    for (const Vec3& q : far_) crack_.add(field, q);
+    crack_.evaluate_values(evaluator_, field);
+    for (std::size_t q = 0; q < far_.size(); ++q)
+      if (crack_.value(q) >= 0) return true;
     return false;
   }
 
@@ -308,9 +317,18 @@ class SurfaceOctree::Sampler {
     bool inside;
   };
   static constexpr int kCrackSteps = 8;
+  // No way through a crack is farther than 28 degrees from one of these: the axes and all diagonals of a cube.
+  static constexpr double kFaceWay = 0.70710678118654752, kSpaceWay = 0.57735026918962576;
+  static inline const std::array<Vec3, 13> kCrackWays{
+      Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1),
+      Vec3(0, kFaceWay, kFaceWay), Vec3(0, kFaceWay, -kFaceWay), Vec3(kFaceWay, 0, kFaceWay),
+      Vec3(kFaceWay, 0, -kFaceWay), Vec3(kFaceWay, kFaceWay, 0), Vec3(kFaceWay, -kFaceWay, 0),
+      Vec3(kSpaceWay, kSpaceWay, kSpaceWay), Vec3(kSpaceWay, kSpaceWay, -kSpaceWay), Vec3(kSpaceWay, -kSpaceWay, kSpaceWay),
+      Vec3(kSpaceWay, -kSpaceWay, -kSpaceWay)};
   static constexpr float kFarthest = 0.5f;   // below kIso: where nothing is
   Evaluator evaluator_;
   FieldBatch crack_;
+  std::vector<Vec3> far_;
   const CellGrid* grid_ = nullptr;
   TubeRuns::InCell tubes_;
   bool merge_ = true;

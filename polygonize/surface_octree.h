@@ -59,8 +59,8 @@ class SurfaceOctree {
   const std::vector<OctreeLeaf>& leaves() const { return leaves_; }
   const CellGrid& grid() const { return grid_; }
 
-  /// Where sheets with a crease between them are closer than this along an axis, what is between them counts as inside: it is the
-  /// edge of the smallest leaves that show gaps, so every wider gap has a corner in it and cracks end in a clean floor.
+  /// Where sheets with a crease between them are closer than this along an axis or a diagonal, what is between them counts as inside: it
+  /// is the edge of the smallest leaves that show gaps, so every wider gap has a corner in it and cracks end in a clean floor.
   double narrow() const;
   double edge(const OctreeLeaf& leaf) const { return grid_.cell * static_cast<double>(std::uint64_t{1} << leaf.level); }
   Vec3 point(const CellPlace& place) const { return grid_.corner(place); }
