@@ -1,6 +1,7 @@
 #include "polygonize/patch_vertices.h"
 
 #include "polygonize/crease_point.h"
+#include "polygonize/crowded_leaves.h"
 #include "polygonize/field_batch.h"
 #include "polygonize/groups.h"
 
@@ -53,7 +54,7 @@ class VertexPlacer {
       vertex.position = placed.best;
       vertex.normal = placed.normal != glm::vec3(0.0f) ? placed.normal : placed.mean_normal;
       if (vertex.normal == glm::vec3(0.0f)) vertex.normal = {0, 0, 1};
-      if (placed.spread < kAlike && !smooth) place_on_crease(field, placed, vertex);
+      if (placed.spread < kAlike && !smooth && !is_crowded(contour_, placed.patch)) place_on_crease(field, placed, vertex);
     }
   }
 
