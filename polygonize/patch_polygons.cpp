@@ -1,8 +1,10 @@
 #include "polygonize/patch_polygons.h"
 
+#include "polygonize/calm_sheet.h"
 #include "polygonize/crease_point.h"
 #include "polygonize/crowded_leaves.h"
 #include "polygonize/groups.h"
+#include "polygonize/marks.h"
 #include "polygonize/polygon_ring.h"
 #include "polygonize/polygon_split.h"
 
@@ -81,6 +83,8 @@ class PolygonBuilder {
   std::optional<DualMesh> build(const RunOptions& run) {
     find_faces();
     if (run.cancelled()) return std::nullopt;
+    drop_faces();
+    if (run.cancelled()) return std::nullopt;
     place_faces();
     if (run.cancelled()) return std::nullopt;
     plan();
@@ -131,6 +135,45 @@ class PolygonBuilder {
       }
     }
     faces_.resize(kept);
+  }
+
+  // On a calm sheet polygons do without, unless a triangle about the middle of one that keeps others would be folded.
+  void drop_faces() {
+    calm_.emplace(tree_, contour_, positions_, splits_, crowded_);
+    std::vector<std::uint8_t> kept(faces_.size());
+    tbb::parallel_for(std::size_t{0}, faces_.size(), [&](std::size_t i) { kept[i] = !may_drop(faces_[i]); });
+    for (bool more = true; more;) {
+      more = false;
+      Marks fans(edges_.size());
+      for (std::size_t i = 0; i < faces_.size(); ++i)
+        if (kept[i]) fans.add(faces_[i].edge), fans.add(faces_[i].other_edge);
+      for (std::size_t i = 0; i < faces_.size(); ++i) {
+        if (kept[i]) continue;
+        const auto& [patches, edge, other_edge] = std::tie(faces_[i].patches, faces_[i].edge, faces_[i].other_edge);
+        kept[i] = (fans.has(edge) && folds(edge, patches)) || (fans.has(other_edge) && folds(other_edge, patches));
+        more = more || kept[i];
+      }
+    }
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      if (kept[i]) faces_[count++] = faces_[i];
+    faces_.resize(count);
+  }
+
+  bool may_drop(const FaceVertex& face) const {
+    const bool open = face.edge == face.other_edge;
+    return !open && calm_->split(face.edge) && calm_->split(face.other_edge) &&
+           calm_->keeps_among({face.edge, face.other_edge}, face.patches);
+  }
+
+  /// Whether the triangle between a polygon's middle and two of its patches faces down.
+  bool folds(std::uint32_t edge, const std::array<std::uint32_t, 2>& patches) const {
+    const Ring ring = ring_of(edges_[edge], contour_.patch_of_quadrant[edge]);
+    for (int k = 0; k < ring.count; ++k) {
+      const std::uint32_t p = ring.patches[k], r = ring.patches[(k + 1) % ring.count];
+      if (std::minmax(p, r) == std::minmax(patches[0], patches[1])) return !calm_->faces_up(p, {crossing_point(edge), position(p), position(r)});
+    }
+    return false;
   }
 
   void place_faces() {
@@ -246,12 +289,17 @@ class PolygonBuilder {
     plan.triangles = static_cast<std::uint8_t>(ring.count + faces);
     if (faces > 0) return plan;
     const auto edge = static_cast<std::uint32_t>(i);
-    const Split split = splits_[i] ? *splits_[i] : split_of(tree_, contour_, edge, ring, positions_, tolerance_);
+    const Split split = split_at(edge, ring);
     if (split == Split::kFan) return plan;
     plan.fan = false;
     plan.triangles = static_cast<std::uint8_t>(ring.count - 2);
     plan.other_diagonal = split == Split::kSecond;
     return plan;
+  }
+
+  Split split_at(std::uint32_t edge, const Ring& ring) const {
+    if (const auto calm = calm_->split(edge)) return *calm;
+    return splits_[edge] ? *splits_[edge] : split_of(tree_, contour_, edge, ring, positions_, tolerance_);
   }
 
   DualMesh write() const {
@@ -345,6 +393,7 @@ class PolygonBuilder {
   std::vector<std::array<std::uint32_t, 2>> creases_;
   const std::vector<bool> crowded_;
   std::vector<FaceVertex> faces_;
+  std::optional<CalmSheet> calm_;
   std::vector<Plan> plans_;
 };
 
