@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 
 namespace cambium {
 namespace {
@@ -113,10 +114,10 @@ class OpenedAnnulus {
       const auto ear = std::find_if(order.begin(), order.end(), [&](const auto& candidate) { return is_ear(left, candidate.second); });
       if (ear == order.end()) return false;
       const std::size_t i = ear->second;
-      triangles_.push_back({left[(i + n - 1) % n], left[i], left[(i + 1) % n]});
+      put(static_cast<std::uint32_t>(triangles_.size()), {left[(i + n - 1) % n], left[i], left[(i + 1) % n]});
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
     }
-    triangles_.push_back({left[0], left[1], left[2]});
+    put(static_cast<std::uint32_t>(triangles_.size()), {left[0], left[1], left[2]});
     return doubled_area(points_[left[0]], points_[left[1]], points_[left[2]]) > 0;
   }
 
@@ -127,11 +128,12 @@ class OpenedAnnulus {
 
   bool flip_some() {
     bool any = false;
-    find_chord([&](std::size_t s, std::size_t t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    find_chord([&](std::uint32_t s, std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
       if (!in_circle(points_[a], points_[b], points_[c], points_[d])) return false;
       if (!(doubled_area(points_[c], points_[a], points_[d]) > 0 && doubled_area(points_[d], points_[b], points_[c]) > 0)) return false;
-      triangles_[s] = {c, a, d};
-      triangles_[t] = {d, b, c};
+      drop_chord(a, b);
+      put(s, {c, a, d});
+      put(t, {d, b, c});
       any = true;
       return false;
     });
@@ -144,26 +146,33 @@ class OpenedAnnulus {
     return a < n && b < n && (apart == 1 || apart == n - 1);
   }
 
+  double excess_between(const ChordExcess& excess, std::uint32_t a, std::uint32_t b) {
+    const auto [known, is_new] = excess_of_.try_emplace(key_of(std::min(a, b), std::max(a, b)));
+    if (is_new) known->second = excess(points_[a], points_[b]);
+    return known->second;
+  }
+
   // Not beside a side that is worse: points would pile up along it.
   bool halve_worst(const ChordExcess& excess) {
     double most = 1;
     Triangle worst{};
-    find_chord([&](std::size_t, std::size_t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-      const double here = excess(points_[a], points_[b]);
-      const auto worse = [&](std::uint32_t i, std::uint32_t j) { return is_side(i, j) && excess(points_[i], points_[j]) >= here; };
+    find_chord([&](std::uint32_t, std::uint32_t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+      const double here = excess_between(excess, a, b);
+      const auto worse = [&](std::uint32_t i, std::uint32_t j) { return is_side(i, j) && excess_between(excess, i, j) >= here; };
       if (here > most && !worse(b, c) && !worse(c, a) && !worse(a, d) && !worse(d, b)) most = here, worst = {a, b, c};
       return false;
     });
     if (!(most > 1)) return false;
-    return find_chord([&](std::size_t s, std::size_t t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    return find_chord([&](std::uint32_t s, std::uint32_t t, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
       if (worst != Triangle{a, b, c}) return false;
       const auto middle = static_cast<std::uint32_t>(points_.size());
       points_.push_back((points_[a] + points_[b]) / 2.0);
       names_.push_back(middle - 2);   // the two points where it was cut open are here twice
-      triangles_[s] = {a, middle, c};
-      triangles_[t] = {b, middle, d};
-      triangles_.push_back({middle, b, c});
-      triangles_.push_back({middle, a, d});
+      drop_chord(a, b);
+      put(s, {a, middle, c});
+      put(t, {b, middle, d});
+      put(static_cast<std::uint32_t>(triangles_.size()), {middle, b, c});
+      put(static_cast<std::uint32_t>(triangles_.size()), {middle, a, d});
       return true;
     });
   }
@@ -171,15 +180,27 @@ class OpenedAnnulus {
   /// try_on(s, t, a, b, c, d) for the chord from a to b between triangles s = abc and t = bad, each once, until one returns true.
   template <class TryOn>
   bool find_chord(TryOn&& try_on) {
-    for (std::size_t s = 0; s < triangles_.size(); ++s)
-      for (std::size_t t = s + 1; t < triangles_.size(); ++t)
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) {
-            const Triangle &abc = triangles_[s], &bad = triangles_[t];
-            if (abc[i] != bad[(j + 1) % 3] || abc[(i + 1) % 3] != bad[j]) continue;
-            if (try_on(s, t, abc[i], bad[j], abc[(i + 2) % 3], bad[(j + 2) % 3])) return true;
-          }
+    for (std::uint32_t s = 0; s < triangles_.size(); ++s)
+      for (int i = 0; i < 3; ++i) {
+        const std::uint32_t a = triangles_[s][i], b = triangles_[s][(i + 1) % 3], c = triangles_[s][(i + 2) % 3];
+        const auto beyond = triangle_on_.find(key_of(b, a));
+        if (beyond == triangle_on_.end() || beyond->second < s) continue;
+        const Triangle& bad = triangles_[beyond->second];
+        const std::uint32_t d = bad[0] + bad[1] + bad[2] - a - b;
+        if (try_on(s, beyond->second, a, b, c, d)) return true;
+      }
     return false;
+  }
+
+  static std::uint64_t key_of(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32 | to; }
+  void put(std::uint32_t t, const Triangle& corners) {
+    if (t == triangles_.size()) triangles_.emplace_back();
+    triangles_[t] = corners;
+    for (int i = 0; i < 3; ++i) triangle_on_[key_of(corners[i], corners[(i + 1) % 3])] = t;
+  }
+  void drop_chord(std::uint32_t a, std::uint32_t b) {
+    triangle_on_.erase(key_of(a, b));
+    triangle_on_.erase(key_of(b, a));
   }
 
   static constexpr std::size_t kMostAdded = 4;   // for every point of the lines
@@ -188,6 +209,8 @@ class OpenedAnnulus {
   std::vector<Point> points_;
   std::vector<std::uint32_t> names_;
   std::vector<Triangle> triangles_;
+  std::unordered_map<std::uint64_t, std::uint32_t> triangle_on_;   // by its sides, in its own direction
+  std::unordered_map<std::uint64_t, double> excess_of_;            // by chords and sides, lower end first
 };
 
 }  // namespace
