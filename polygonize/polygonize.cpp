@@ -70,6 +70,7 @@ struct Plan {
   int finer = 0;
   double tolerance = 0;   // infinite where cells are given
   double crumb = 0;       // see drop_small_components
+  bool search = false;    // for surface that cells do not show
   std::optional<TubeRule> tubes;
 };
 
@@ -92,6 +93,7 @@ Plan make_plan(const Field& field, const PolygonizeOptions& options) {
   if (options.preview) plan.tolerance *= 16, sides = std::min(sides, 4.0);
   plan.tubes = TubeRule{plan.tolerance, sides};
   plan.crumb = std::min(plan.tolerance, thinnest);
+  plan.search = !options.preview;
   plan.leaves.radii = std::min(kCellsAround / sides, kWhole);
   plan.leaves.sagitta = kSagitta * plan.tolerance;
   plan.leaves.longest = across / 16;
@@ -136,7 +138,7 @@ std::optional<Contouring> begin_contouring(const SurfaceCover& cover, const Plan
                                            const RunOptions& run) {
   auto tree = SurfaceOctree::build(cover, plan.finer, plan.leaves, run, &tubes);
   if (!tree) return std::nullopt;
-  if (std::isfinite(plan.tolerance) && !show_unseen_surface(*tree, cover, report.unseen, run)) return std::nullopt;
+  if (plan.search && !show_unseen_surface(*tree, cover, report.unseen, run)) return std::nullopt;
   auto refiner = ContourRefiner::begin(*std::move(tree), cover, run);
   if (!refiner) return std::nullopt;
   return Contouring{*std::move(refiner), VertexBalance(plan.tolerance), {}};
@@ -154,7 +156,7 @@ bool refine(Contouring& contouring, const SurfaceCover& cover, const Plan& plan,
     std::vector<std::uint32_t> leaves;
     const double care = round < kLateRound ? kAim : kLateCare;
     if (round < kMostRounds) leaves = leaves_to_refine(refiner, balance, care * plan.tolerance);
-    if (leaves.empty() && std::isfinite(plan.tolerance)) {
+    if (leaves.empty() && plan.search) {
       auto found = missed.find(refiner.tree(), cover, refiner.contour(), {balance.positions(), balance.splits(), plan.tolerance}, run);
       if (!found) return false;
       leaves = *std::move(found);

@@ -16,7 +16,7 @@ struct PolygonizeOptions {
   std::optional<double> tolerance{};        ///< metres, both ways; unset: an eighth of the thinnest radius, or 1/20000 of the whole
   std::optional<double> voxel{};            ///< all cells of this edge, metres, whatever that misses; not with tolerance
   double min_sides = 6;                     ///< around the thinnest twig, at least; 4 to 64
-  bool preview = false;                     ///< 16 times the tolerance and at most four sides: a first look
+  bool preview = false;                     ///< 16 times the tolerance, at most four sides, and no search for what cells do not show
 };
 
 struct PolygonizeReport {
@@ -34,7 +34,7 @@ struct PolygonizeReport {
   /// Where sheets are closer than the smallest cell allowed there, so that the mesh may join what is apart.
   std::vector<Vec3> uncertain;
   /// Where wood thinner than the tolerance is missing, or may be: bounds of the field do not rule it out. One place in a cube of four
-  /// tolerances. Not looked for with a given voxel.
+  /// tolerances. Not looked for with a given voxel, nor for a preview.
   std::vector<Vec3> unseen;
   /// Where the cavities and crumbs left out were, likewise.
   std::vector<Vec3> left_out;

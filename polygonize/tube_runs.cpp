@@ -13,7 +13,7 @@ constexpr std::size_t kCellsPerTask = 4096, kChainsPerTask = 16;
 constexpr double kStraight = 0.5;      // cosine: a chain that turns more in a cell, or as a whole, may come to lie beside itself
 // In edges of the largest leaves there: what stays of a lone stretch beside other things, from the ends of a run to its rings, and how
 // long a run must be to save more than its ends cost.
-constexpr double kMargin = 1.1, kJoin = 1.4, kShortest = 5;
+constexpr double kMargin = 1.1, kJoin = 1.4, kShortest = 3.5;
 constexpr double kApart = 1.5;         // in sums of radii: of the axes of parts of one chain that are no neighbours
 
 /// Part of a chain, in segments and parts of segments from its root.
