@@ -26,6 +26,7 @@ double signed_unit(std::uint32_t low_16_bits) { return (low_16_bits & 0xffffu) *
 }  // namespace
 
 std::uint32_t wrapped_column(std::int64_t cell, std::uint32_t period) {
+  if (static_cast<std::uint64_t>(cell) < period) return static_cast<std::uint32_t>(cell);   // mostly: a division takes as long as a corner's noise
   const std::int64_t column = cell % static_cast<std::int64_t>(period);
   return static_cast<std::uint32_t>(column < 0 ? column + period : column);
 }
