@@ -137,8 +137,8 @@ class Evaluator {
   Interval interval(const PrunedField& field, const Ball& ball);
   Interval interval(const PrunedField& field, const Box& box);
   /// Bounds along the straight way from middle - half direction to middle + half direction, which lies in field.box(); direction
-  /// is a unit vector. As the way gets shorter the slopes close in on each other in proportion, but for creases, and under a
-  /// bend, twist or taper, where they stay apart. Cost: about that of one interval.
+  /// is a unit vector. As the way gets shorter the slopes close in on each other in proportion, but for creases, the
+  /// ends of a bend, and twists and tapers, where they stay apart. Cost: about that of one interval.
   Course course(const PrunedField& field, const Vec3& middle, const Vec3& direction, double half);
   /// The same of all ways in one direction through a ball, for the part of it inside field.box(): where the slope keeps its sign, at
   /// most one sheet of the surface is there.
