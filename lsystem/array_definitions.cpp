@@ -28,15 +28,6 @@ void ArrayDefinitions::read() {
   }
 }
 
-double ArrayDefinitions::constant() {
-  Code code;
-  Scope none;
-  ExpressionCompiler(cursor_, none, code).expression();
-  CodeTables tables;
-  tables.files = cursor_.source().files;
-  return constant_value(code, tables);
-}
-
 void ArrayDefinitions::check_new(const std::string& name, std::size_t at) const {
   if (name.empty()) cursor_.fail("a name");
   if (names_.arrays.count(name) || names_.variables.count(name))
@@ -51,7 +42,7 @@ std::vector<std::uint32_t> ArrayDefinitions::sizes() {
   while (true) {
     cursor_.skip_space();
     const std::size_t at = cursor_.position();
-    const double size = constant();
+    const double size = constant_expression(cursor_);
     if (size < 1 || size != std::floor(size) || size * static_cast<double>(count) > kMaxElements)
       cursor_.fail_at(at, cursor_.describe(at), "a size of 1 to 1000000 elements in all");
     out.push_back(static_cast<std::uint32_t>(size));
@@ -91,7 +82,7 @@ void ArrayDefinitions::initial_values(const ArrayInfo& array, std::size_t count)
       --depth;
     } else if (!(given > 0 && cursor_.accept(','))) {
       const std::size_t at = cursor_.position();
-      const double value = constant();
+      const double value = constant_expression(cursor_);
       if (given == count) cursor_.fail_at(at, "more values than the array holds", std::to_string(count));
       values_[array.first + given++] = value;
     }

@@ -24,7 +24,6 @@ class ArrayDefinitions {
   void external();
   std::vector<std::uint32_t> sizes();
   void initial_values(const ArrayInfo& array, std::size_t count);
-  double constant();
   void check_new(const std::string& name, std::size_t at) const;
 
   Cursor& cursor_;

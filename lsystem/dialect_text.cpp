@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "lsystem/bytecode.h"
 #include "lsystem/expression_compiler.h"
 
 namespace cambium {
@@ -56,14 +55,10 @@ SourceText marked_source(const MarkedText& text, const SourceText& from) {
 double constant_of(const MarkedText& expression, const SourceText& from) {
   const SourceText source = marked_source(expression, from);
   Cursor cursor(source);
-  Scope scope;
-  Code code;
-  ExpressionCompiler(cursor, scope, code).expression();
+  const double value = constant_expression(cursor);
   cursor.skip_space();
   if (!cursor.at_end()) cursor.fail("the end of the line");
-  CodeTables tables;
-  tables.files = from.files;
-  return constant_value(code, tables);
+  return value;
 }
 
 }  // namespace cambium

@@ -342,4 +342,13 @@ void ExpressionCompiler::store(const std::string& name, std::size_t at) {
   emit(Opcode::kStoreLocal, slot, -1, at);
 }
 
+double constant_expression(Cursor& cursor) {
+  Scope none;
+  Code code;
+  ExpressionCompiler(cursor, none, code).expression();
+  CodeTables tables;
+  tables.files = cursor.source().files;
+  return constant_value(code, tables);
+}
+
 }  // namespace cambium

@@ -90,4 +90,7 @@ struct ExpressionCompiler::Nesting {
 /// Value of the decimal number at the head; InputError if it is none or too large.
 double read_number(Cursor& cursor);
 
+/// The value of the expression of constants that stands here; the cursor is left behind it. Errors: InputError.
+double constant_expression(Cursor& cursor);
+
 }  // namespace cambium

@@ -225,14 +225,10 @@ class Preprocessor {
     }
     source.append('\n', {source.end.line, source.end.column + 1, source.end.file});
     Cursor cursor(source);
-    Scope scope;
-    Code code;
-    ExpressionCompiler(cursor, scope, code).expression();
+    const double value = constant_expression(cursor);
     cursor.skip_space();
     if (!cursor.at_line_end()) cursor.fail("the end of the condition");
-    CodeTables tables;
-    tables.files = files_;
-    return constant_value(code, tables) != 0.0;
+    return value != 0.0;
   }
 
   std::vector<std::string> files_;

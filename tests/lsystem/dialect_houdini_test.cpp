@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "grammar.h"
+#include "mistake.h"
 
 namespace cambium {
 namespace {
@@ -69,12 +70,8 @@ TEST(DialectHoudini, TheNodesValuesAreRead) {
   EXPECT_DOUBLE_EQ(turtled.last_width, 0.5);
 }
 
-struct Mistake {
-  const char* text;
-  int line, column;
-  const char* found;
-  const char* expected;
-};
+using test::expect_error;
+using test::Mistake;
 
 TEST(DialectHoudini, MistakesAreRefusedWhereTheyStand) {
   const Mistake mistakes[] = {
@@ -124,11 +121,7 @@ TEST(DialectHoudini, MistakesAreRefusedWhereTheyStand) {
       const LSystem system = houdini(mistake.text);
       ADD_FAILURE() << mistake.text << "\nis read as " << to_text(test::derived(system, 0));
     } catch (const InputError& error) {
-      EXPECT_EQ(error.location().file, "test.l") << mistake.text;
-      EXPECT_EQ(error.location().line, mistake.line) << mistake.text << "\n" << error.what();
-      EXPECT_EQ(error.location().column, mistake.column) << mistake.text << "\n" << error.what();
-      EXPECT_NE(error.found().find(mistake.found), std::string::npos) << mistake.text << "\n" << error.what();
-      EXPECT_NE(error.expected().find(mistake.expected), std::string::npos) << mistake.text << "\n" << error.what();
+      expect_error(error, mistake, "test.l");
     }
   }
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "grammar.h"
+#include "mistake.h"
 #include "lsystem/lpy_symbols.h"
 
 namespace cambium {
@@ -99,12 +100,8 @@ TEST(DialectLpy, FunctionsOfMathTakeRadians) {
             "A(1,2,180,1)");
 }
 
-struct Mistake {
-  const char* text;
-  int line, column;
-  const char* found;
-  const char* expected;
-};
+using test::expect_error;
+using test::Mistake;
 
 TEST(DialectLpy, WhatIsNoRuleIsRefusedWhereItStands) {
   const Mistake mistakes[] = {
@@ -173,11 +170,7 @@ TEST(DialectLpy, WhatIsNoRuleIsRefusedWhereItStands) {
       const LSystem system = lpy(mistake.text);
       ADD_FAILURE() << mistake.text << "\nis read as " << to_text(test::derived(system, 0));
     } catch (const InputError& error) {
-      EXPECT_EQ(error.location().file, "test.lpy") << mistake.text;
-      EXPECT_EQ(error.location().line, mistake.line) << mistake.text << "\n" << error.what();
-      EXPECT_EQ(error.location().column, mistake.column) << mistake.text << "\n" << error.what();
-      EXPECT_NE(error.found().find(mistake.found), std::string::npos) << mistake.text << "\n" << error.what();
-      EXPECT_NE(error.expected().find(mistake.expected), std::string::npos) << mistake.text << "\n" << error.what();
+      expect_error(error, mistake, "test.lpy");
     }
   }
 }

@@ -1,26 +1,18 @@
 // One row for every kind of mistake: where it is said to be, what was found there and what was expected.
 #include "grammar.h"
+#include "mistake.h"
 
 #include <gtest/gtest.h>
 
 namespace cambium {
 namespace {
 
-struct Mistake {
-  std::string text;
-  int line, column;
-  const char* found;      // parts of the message
-  const char* expected;
-};
+using test::Mistake;
 
 void expect_refused(const Mistake& mistake) {
   const auto error = test::error_of(mistake.text);
   ASSERT_TRUE(error) << mistake.text;
-  EXPECT_EQ(error->location().file, "test.l") << mistake.text;
-  EXPECT_EQ(error->location().line, mistake.line) << mistake.text << "\n" << error->what();
-  EXPECT_EQ(error->location().column, mistake.column) << mistake.text << "\n" << error->what();
-  EXPECT_NE(error->found().find(mistake.found), std::string::npos) << mistake.text << "\n" << error->what();
-  EXPECT_NE(error->expected().find(mistake.expected), std::string::npos) << mistake.text << "\n" << error->what();
+  test::expect_error(*error, mistake, "test.l");
 }
 
 TEST(Mistakes, OfFilesAreRefusedWhereTheyStand) {
