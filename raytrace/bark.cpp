@@ -2,7 +2,7 @@
 
 #include "raytrace/bark_texture.h"
 #include "raytrace/bark_wounds.h"
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "raytrace/bark_pattern.h"
 
 #include "raytrace/bark_lattice.h"
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "raytrace/bark_wounds.h"
 
 #include "raytrace/bark_noise.h"
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 
 #include <algorithm>
 #include <cmath>

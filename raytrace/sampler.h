@@ -1,7 +1,7 @@
 // Well-spread sample points per pixel: Owen-scrambled Sobol pairs, a pure function of (seed, pixel, sample, use).
 #pragma once
 
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "raytrace/bark_pattern.h"
 
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 
 #include <gtest/gtest.h>
 

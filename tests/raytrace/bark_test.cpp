@@ -1,6 +1,6 @@
 #include "raytrace/bark.h"
 
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 #include "raytrace/texture_image.h"
 #include "raytrace/tone.h"
 #include "tests/raytrace/scenes.h"

@@ -2,7 +2,7 @@
 
 #include "blobtree/input_error.h"
 #include "raytrace/directions.h"
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 #include "raytrace/tone.h"
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "raytrace/tracer.h"
 
 #include "lsystem/lsystem.h"
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 #include "skeletons/surface.h"
 #include "tests/blobtree/random_blobtrees.h"
 #include "tests/raytrace/sampled_surface.h"

@@ -1,7 +1,7 @@
 #include "raytrace/foliage_tracer.h"
 
 #include "blobtree/input_error.h"
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 #include "tests/raytrace/foliage_scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "raytrace/lights.h"
 
 #include "raytrace/directions.h"
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 #include "raytrace/tone.h"
 
 #include <gtest/gtest.h>

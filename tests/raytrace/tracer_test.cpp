@@ -1,6 +1,6 @@
 #include "raytrace/tracer.h"
 
-#include "raytrace/hash.h"
+#include "blobtree/place_hash.h"
 #include "tests/raytrace/scenes.h"
 
 #include <gtest/gtest.h>
