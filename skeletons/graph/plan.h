@@ -50,12 +50,13 @@ struct GraphLevel {
   std::optional<double> spacing;     ///< d, metres: the least distance between nodes; unset: so that k nodes fill the volume
   // Its volume, from level 2 on
   double alpha = 0.3 * std::numbers::pi;   ///< radians, (0, pi]: the volume is the part of a ball that is within alpha of v_g
-  std::optional<double> radius;      ///< r, metres; unset: a times that of the level before, at level 2 `a` times the volume's size / 2
+  std::optional<double> radius;      ///< r, metres; unset: a times that of the level before; level 1 counts half the mean way, as the
+                                     ///< crow flies, from the root to its endpoints
   double shrink = 0.7;               ///< a, > 0
   std::vector<PlacedSolid> shape;    ///< in place of the ball's part: in units of r, z along v_g, its root in the origin
   GraphOrientation orientation = GraphOrientation::kOutward;
   GraphTurn turn;
-  bool around_all = false;           ///< subgraphs also around the endpoints of all levels before, not just of the last
+  bool around_all = false;           ///< subgraphs around the endpoints of all levels before, not just of the last
   // Its endpoints
   std::array<int, 2> endpoints = {10, 10};   ///< b: least and most, drawn for each subgraph
   EndpointPlacement placement = EndpointPlacement::kUniform;
@@ -110,7 +111,7 @@ struct GraphThickness {
   ThicknessRule rule = ThicknessRule::kPath;
   double trunk_radius = 0.1;         ///< metres, at the root; every other is scaled along
   double tip_radius = 0.001;         ///< metres, at least; kPipe: of every tip
-  double exponent = 2.5;             ///< e of kPipe, found anew where the tips' and the trunk's radius are both given
+  std::optional<double> exponent;    ///< e of kPipe; unset: such that tips of tip_radius make a trunk of trunk_radius
   std::optional<double> unit;        ///< metres, what s is counted in; unset: a hundredth of the longest way
   bool every_level = true;           ///< endpoints of every level count with their level's zeta, not only of the last
 };
@@ -138,9 +139,10 @@ struct GraphOptions {
   std::optional<GraphLight> light;
   std::optional<GraphWind> wind;
   GraphThickness thickness;
-  double smoothing = 3;              ///< of zigzag: passes over the paths; ends of paths stay; 0: none
+  int smoothing = 3;                 ///< passes over the paths that take out zigzag; the root and all endpoints stay; 0: none
   /// Below the ground: planned by the same rules from the same root, thickness.trunk_radius its own; not more than one, without roots.
   std::vector<GraphOptions> roots;
+  bool with_roots = true;            ///< unset: they are left out of the skeleton
   std::uint64_t seed = 0;
 };
 

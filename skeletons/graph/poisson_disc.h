@@ -27,7 +27,8 @@ struct PoissonDiscNodes {
 /// `given`: nodes that are there in any case, in the volume or not.
 /// The same at any thread count. nullopt if cancelled. Cost: linear in the nodes and, for a volume that fills little of its bounds,
 /// in the bounds' size in cells of `spacing`.
-/// Errors: InputError (no location) where the volume is empty, or the nodes would be more than 2^31.
+/// A volume without room for any more gives the given nodes alone.
+/// Errors: InputError (no location) where the nodes would be more than 2^31.
 std::optional<PoissonDiscNodes> poisson_disc(const GraphVolume& volume, std::span<const Vec3> given, const PoissonDiscOptions& options,
                                              const RunOptions& run);
 
