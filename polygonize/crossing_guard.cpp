@@ -1,6 +1,6 @@
 #include "polygonize/crossing_guard.h"
 
-#include "polygonize/box_tree.h"
+#include "blobtree/box_tree.h"
 #include "polygonize/triangle_contact.h"
 
 #include <tbb/blocked_range.h>

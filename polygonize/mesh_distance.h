@@ -1,13 +1,11 @@
 // How far a point is from a mesh.
 #pragma once
 
-#include "polygonize/box_tree.h"
+#include "blobtree/box_tree.h"
+#include "blobtree/triangle_distance.h"
 #include "polygonize/mesh.h"
 
 namespace cambium {
-
-/// In double, to rounding. A triangle without area counts as the segment or point that it is.
-double distance2_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Shared by threads; keeps a reference to the mesh. Cost of making: half a microsecond a triangle.
 class MeshDistance {

@@ -1,4 +1,4 @@
-#include "polygonize/box_tree.h"
+#include "blobtree/box_tree.h"
 #include "polygonize/triangle_contact.h"
 #include "polygonize/verify.h"
 

@@ -1,6 +1,6 @@
 #include "polygonize/tube_runs.h"
 
-#include "polygonize/box_tree.h"
+#include "blobtree/box_tree.h"
 #include "polygonize/ordered_chunks.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Many small boxes of any sizes, found again by place: which of them overlap, which is nearest to a point. A balanced tree, halved
-// at the median, so that large triangles beside tiny ones cost nothing extra. Knows nothing of what is in the boxes.
+// Many small boxes of any sizes, found again by place: which of them overlap, which something meets, which is nearest to a point. A
+// balanced tree, halved at the median, so that large triangles beside tiny ones cost nothing extra. Knows nothing of what is in them.
 #pragma once
 
 #include "blobtree/float_box.h"
@@ -34,6 +34,10 @@ class BoxTree {
   /// Calls visit(i, j) for each pair of overlapping boxes that has its first in this leaf and its second there or in a later one.
   template <class Visit>
   void overlaps(std::size_t leaf, Visit&& visit) const;
+
+  /// Calls visit(i) for each box that wanted(box) holds of; it must hold of every box around one that it holds of.
+  template <class Wanted, class Visit>
+  void search(Wanted&& wanted, Visit&& visit) const;
 
   /// The least distance2(i) of all boxes, looking only where box i is not farther from p than what was found before; `bound`
   /// (squared, metres) if nothing is nearer.
@@ -84,6 +88,26 @@ void BoxTree::overlaps(std::size_t leaf, Visit&& visit) const {
       for (std::size_t j = from; j < to; ++j)
         if (boxes_[i].intersects(boxes_[j])) visit(order_[i], order_[j]);
     }
+  }
+}
+
+template <class Wanted, class Visit>
+void BoxTree::search(Wanted&& wanted, Visit&& visit) const {
+  if (order_.empty()) return;
+  std::array<std::size_t, 64> stack;
+  std::size_t waiting = 0;
+  stack[waiting++] = 0;
+  while (waiting > 0) {
+    const std::size_t node = stack[--waiting];
+    if (!wanted(nodes_[node])) continue;
+    if (node < leaves_ - 1) {
+      stack[waiting++] = 2 * node + 2;
+      stack[waiting++] = 2 * node + 1;
+      continue;
+    }
+    const std::size_t leaf = node - (leaves_ - 1);
+    for (std::size_t i = first(leaf); i < first(leaf + 1); ++i)
+      if (wanted(boxes_[i])) visit(order_[i]);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "polygonize/box_tree.h"
+#include "blobtree/box_tree.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
