@@ -1,7 +1,7 @@
 // Where graph nodes may be: a union of solids without the obstacles in it (Xu and Mould 2012, sections 3.3.1 and 3.4).
 #pragma once
 
-#include "skeletons/graph/solids.h"
+#include "skeletons/graph/prepared_solid.h"
 
 #include <cstdint>
 #include <memory>
@@ -9,16 +9,27 @@
 
 namespace cambium {
 
-/// A placed solid's own frame: where places of the world lie in it.
-struct SolidFrame {
+/// A placed solid ready for questions about places of the world.
+class SolidFrame {
+ public:
+  /// Errors: InputError (no location) as validate(), and for a scale, an axis or an origin that places nothing.
   explicit SolidFrame(const PlacedSolid& placed);
 
-  Mat3 to_local;                     ///< rotation
-  Vec3 origin{0.0};
-  double scale = 1;
-  Box world;                         ///< around the solid
+  const Box& world() const { return world_; }
+  Vec3 local(const Vec3& p) const { return to_local_ * (p - origin_); }
+  /// From the solid's own place to the world's.
+  Vec3 placed(const Vec3& local) const { return origin_ + scale_ * scale_ * (local * to_local_); }
 
-  Vec3 local(const Vec3& p) const { return to_local * (p - origin) / scale; }
+  bool contains(const Vec3& p) const { return world_.contains(p) && solid_.contains(local(p)); }
+  double depth(const Vec3& p) const { return scale_ * solid_.depth(local(p)); }      ///< metres; p is in it
+  bool meets(const Vec3& a, const Vec3& b) const;                                    ///< as PreparedSolid::meets
+
+ private:
+  Mat3 to_local_;                    // rotation, divided by the scale
+  Vec3 origin_;
+  double scale_;
+  Box world_;
+  PreparedSolid solid_;
 };
 
 /// All that the normal points away from.
@@ -29,17 +40,15 @@ class Obstacles {
  public:
   /// Errors: InputError (no location) as validate(), and for a normal of length 0.
   Obstacles() = default;
-  Obstacles(std::vector<PlacedSolid> solids, std::vector<HalfSpaceObstacle> half_spaces);
+  Obstacles(const std::vector<PlacedSolid>& solids, std::vector<HalfSpaceObstacle> half_spaces);
 
   bool empty() const { return solids_.empty() && half_spaces_.empty(); }
   bool holds(const Vec3& p) const;
-  /// Whether the straight line from a to b meets an obstacle. Exact for half-spaces and balls; others are looked at in steps of
-  /// an eighth of its length.
+  /// Whether the straight line from a to b meets an obstacle; exact, to rounding.
   bool crossed(const Vec3& a, const Vec3& b) const;
 
  private:
-  std::vector<PlacedSolid> solids_;
-  std::vector<SolidFrame> frames_;
+  std::vector<SolidFrame> solids_;
   std::vector<HalfSpaceObstacle> half_spaces_;
 };
 

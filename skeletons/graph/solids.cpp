@@ -1,6 +1,9 @@
 #include "skeletons/graph/solids.h"
 
 #include "blobtree/input_error.h"
+#include "skeletons/graph/closed_mesh.h"
+#include "skeletons/graph/prepared_solid.h"
+#include "skeletons/graph/revolution.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,45 +18,12 @@ struct Match : Cases... { using Cases::operator()...; };
 template <class... Cases>
 Match(Cases...) -> Match<Cases...>;
 
-double across(const Vec3& p) { return std::hypot(p.x, p.y); }
-
 void require_positive(double value, const char* key) {
   if (!(value > 0) || !std::isfinite(value))
     throw InputError({}, std::string(key) + " = " + std::to_string(value), "a finite " + std::string(key) + " above 0");
 }
 
-double cone_radius(const ConeSolid& cone, double z) { return cone.radius_base + (cone.radius_tip - cone.radius_base) * z / cone.height; }
-
 }  // namespace
-
-bool contains(const Solid& solid, const Vec3& p) {
-  return std::visit(Match{
-    [&](const BallSolid& s) {
-      const double length = glm::length(p);
-      return length <= s.radius && (s.angle >= kPi || p.z >= length * std::cos(s.angle));
-    },
-    [&](const EllipsoidSolid& s) { const Vec3 q = p / s.half_size; return glm::dot(q, q) <= 1; },
-    [&](const CylinderSolid& s) { return 0 <= p.z && p.z <= s.height && across(p) <= s.radius; },
-    [&](const ConeSolid& s) { return 0 <= p.z && p.z <= s.height && across(p) <= cone_radius(s, p.z); },
-  }, solid);
-}
-
-double depth(const Solid& solid, const Vec3& p) {
-  return std::visit(Match{
-    [&](const BallSolid& s) { return s.radius - glm::length(p); },
-    [&](const EllipsoidSolid& s) {
-      return (1 - glm::length(p / s.half_size)) * std::min({s.half_size.x, s.half_size.y, s.half_size.z});
-    },
-    [&](const CylinderSolid& s) { return std::min({p.z, s.height - p.z, s.radius - across(p)}); },
-    [&](const ConeSolid& s) {
-      const double slope = (s.radius_base - s.radius_tip) / s.height;
-      double d = (cone_radius(s, p.z) - across(p)) / std::hypot(1.0, slope);
-      if (s.radius_base > 0) d = std::min(d, p.z);
-      if (s.radius_tip > 0) d = std::min(d, s.height - p.z);
-      return d;
-    },
-  }, solid);
-}
 
 Box bounds(const Solid& solid) {
   return std::visit(Match{
@@ -68,6 +38,12 @@ Box bounds(const Solid& solid) {
       const double side = std::max(s.radius_base, s.radius_tip);
       return Box{{-side, -side, 0}, {side, side, s.height}};
     },
+    [](const RevolutionSolid& s) {
+      Box box;
+      for (const glm::dvec2& p : s.stroke) box.extend(Vec3{-p.x, -p.x, p.y}), box.extend(Vec3{p.x, p.x, p.y});
+      return box;
+    },
+    [](const MeshSolid& s) { return s.mesh->bounds(); },
   }, solid);
 }
 
@@ -88,7 +64,15 @@ void validate(const Solid& solid) {
       if (s.radius_tip < 0) require_positive(s.radius_tip, "radius_tip");
       require_positive(s.radius_base + s.radius_tip, "radius_base");
     },
+    [](const RevolutionSolid& s) { validate_stroke(s.stroke); },
+    [](const MeshSolid& s) {
+      if (!s.mesh) throw InputError({}, "mesh: none", "a closed mesh");
+    },
   }, solid);
 }
+
+bool contains(const Solid& solid, const Vec3& p) { return PreparedSolid(solid).contains(p); }
+
+double depth(const Solid& solid, const Vec3& p) { return PreparedSolid(solid).depth(p); }
 
 }  // namespace cambium

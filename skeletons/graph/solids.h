@@ -4,10 +4,14 @@
 #include "blobtree/geometry.h"
 
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <variant>
+#include <vector>
 
 namespace cambium {
+
+class ClosedMesh;
 
 /// The part of a ball around the origin whose directions are within `angle` of z: pi is the whole ball, pi/2 a hemisphere, less a
 /// cone with a round lid and its tip in the origin.
@@ -18,17 +22,19 @@ struct BallSolid {
 struct EllipsoidSolid { Vec3 half_size{1.0}; };                    ///< around the origin
 struct CylinderSolid { double radius = 1, height = 1; };           ///< from z = 0 to z = height
 struct ConeSolid { double radius_base = 1, radius_tip = 0, height = 1; };   ///< from z = 0 to z = height; radius_base = 0 stands on its tip
+/// What a stroke sweeps as it turns about z: (distance from it, z) of each point. An end that is off the axis is joined to it on its own
+/// height, unless the stroke ends where it began.
+struct RevolutionSolid { std::vector<glm::dvec2> stroke; };
+struct MeshSolid { std::shared_ptr<const ClosedMesh> mesh; };      ///< not null
 
-using Solid = std::variant<BallSolid, EllipsoidSolid, CylinderSolid, ConeSolid>;
+using Solid = std::variant<BallSolid, EllipsoidSolid, CylinderSolid, ConeSolid, RevolutionSolid, MeshSolid>;
 
-/// Closed: true on the surface, to rounding.
-bool contains(const Solid& solid, const Vec3& p);
-/// Metres from p, inside, to the surface; of a ball's part to the ball. Not more than the distance where that has no closed form
-/// (ellipsoid).
-double depth(const Solid& solid, const Vec3& p);
 Box bounds(const Solid& solid);
-/// Errors: InputError (no location) that names the number at fault, by its key in a recipe.
+/// Errors: InputError (no location) that names the number at fault, by its key in a recipe (and a stroke's point by its number from 1).
 void validate(const Solid& solid);
+/// As PreparedSolid (prepared_solid.h) answers, which is what to make for more than one question.
+bool contains(const Solid& solid, const Vec3& p);
+double depth(const Solid& solid, const Vec3& p);
 
 /// A solid turned so that its z is `axis`, scaled, and moved so that its origin is `origin`.
 struct PlacedSolid {
