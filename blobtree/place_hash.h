@@ -21,4 +21,18 @@ inline std::uint64_t hash_of(std::uint64_t seed, std::uint64_t a, std::uint64_t 
 /// [0, 1)
 inline double unit_of(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
+/// One draw after another from the stream that a number names.
+class StreamDraws {
+ public:
+  explicit StreamDraws(std::uint64_t stream) : stream_(stream) {}
+
+  std::uint64_t bits() { return hash_of(stream_, count_++); }
+  double uniform() { return unit_of(bits()); }                                                     ///< [0, 1)
+  double between(double low, double high) { return low + (high - low) * uniform(); }
+  std::uint64_t below(std::uint64_t n) { return static_cast<std::uint64_t>(uniform() * static_cast<double>(n)); }  ///< 0 .. n - 1; n < 2^53
+
+ private:
+  std::uint64_t stream_, count_ = 0;
+};
+
 }  // namespace cambium

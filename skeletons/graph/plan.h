@@ -76,7 +76,7 @@ struct LifespanOutcome {
 };
 
 struct Lifespan {
-  std::optional<double> initial;     ///< L of level 1's endpoints; unset: as many levels as are listed
+  std::optional<double> initial = {};   ///< L of level 1's endpoints; unset: as many levels as are listed
   std::vector<LifespanOutcome> outcomes = {LifespanOutcome{}};
   bool sizes = false;                ///< subgraphs shrink with the lifespan left: r times L of its root over the initial L
 
@@ -111,8 +111,8 @@ struct GraphThickness {
   ThicknessRule rule = ThicknessRule::kPath;
   double trunk_radius = 0.1;         ///< metres, at the root; every other is scaled along
   double tip_radius = 0.001;         ///< metres, at least; kPipe: of every tip
-  std::optional<double> exponent;    ///< e of kPipe; unset: such that tips of tip_radius make a trunk of trunk_radius
-  std::optional<double> unit;        ///< metres, what s is counted in; unset: a hundredth of the longest way
+  std::optional<double> exponent = {};   ///< e of kPipe; unset: such that tips of tip_radius make a trunk of trunk_radius
+  std::optional<double> unit = {};     ///< metres, what s is counted in; unset: a hundredth of the longest way
   bool every_level = true;           ///< endpoints of every level count with their level's zeta, not only of the last
 };
 
