@@ -86,11 +86,10 @@ class Planner {
   std::uint64_t level_stream(std::size_t level) const { return hash_of(options_.seed, level); }
 
   GraphVolume first_volume() const {
-    return naming("volume", [&] {
-      std::vector<PlacedSolid> solids = options_.volume;
-      if (options_.refinement)
-        solids = refined(solids, *options_.refinement, options_.root, options_.obstacles.get(), hash_of(options_.seed, 1, kRefine));
-      return GraphVolume(std::move(solids), options_.obstacles);
+    if (!options_.refinement) return GraphVolume(options_.volume, options_.obstacles);
+    return naming("refinement", [&] {
+      const std::uint64_t stream = hash_of(options_.seed, 1, kRefine);
+      return GraphVolume(refined(options_.volume, *options_.refinement, options_.root, options_.obstacles.get(), stream), options_.obstacles);
     });
   }
 

@@ -46,6 +46,11 @@ void check_endpoints(const GraphLevel& level, bool first) {
   require_positive(level.zeta, "zeta");
 }
 
+void check_volume(const std::vector<PlacedSolid>& volume) {
+  require(!volume.empty(), "no volume", "at least one");
+  for (std::size_t i = 0; i < volume.size(); ++i) naming("volume " + std::to_string(i + 1), [&] { GraphVolume({volume[i]}); });
+}
+
 void check_thickness(const GraphThickness& thickness) {
   require_positive(thickness.trunk_radius, "trunk_radius");
   require_positive(thickness.tip_radius, "tip_radius");
@@ -88,6 +93,7 @@ void check_roots(const GraphOptions& options) {
 
 void check_plan(const GraphOptions& options) {
   require(std::isfinite(glm::dot(options.root, options.root)), "root: a place that is not finite", "a finite one");
+  check_volume(options.volume);
   require(!options.levels.empty(), "no level", "at least one");
   for (std::size_t i = 0; i < options.levels.size(); ++i)
     naming("level " + std::to_string(i + 1), [&] {
