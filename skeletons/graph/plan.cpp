@@ -72,8 +72,11 @@ class Planner {
     for (const GraphLevel& level : options_.levels) zetas.push_back(level.zeta);
     const auto radii = path_radii({tree_.positions, tree_.parents, plan.endpoints, plan.endpoint_levels}, options_.thickness, zetas);
     plan.skeleton.nodes.resize(tree_.positions.size());
-    for (std::size_t i = 0; i < radii.size(); ++i)
-      plan.skeleton.nodes[i] = {tree_.positions[i], radii[i], i == 0 ? -1 : static_cast<std::int32_t>(tree_.parents[i]), {}, {}};
+    for (std::size_t i = 0; i < plan.skeleton.nodes.size(); ++i) {
+      SkeletonNode& node = plan.skeleton.nodes[i];
+      node = {tree_.positions[i], radii.tip[i], i == 0 ? -1 : static_cast<std::int32_t>(tree_.parents[i]), {}, {}};
+      if (i > 0) node.base_radius = radii.base[i];
+    }
     plan.report = std::move(report_);
     return plan;
   }

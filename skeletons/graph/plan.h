@@ -112,7 +112,7 @@ struct GraphThickness {
   double trunk_radius = 0.1;         ///< metres, at the root; every other is scaled along
   double tip_radius = 0.001;         ///< metres, at least; kPipe: of every tip
   std::optional<double> exponent = {};   ///< e of kPipe; unset: such that tips of tip_radius make a trunk of trunk_radius
-  std::optional<double> unit = {};     ///< metres, what s is counted in; unset: a hundredth of the longest way
+  std::optional<double> unit = {};     ///< metres, what s is counted in; unset: a thousandth of the longest way
   bool every_level = true;           ///< endpoints of every level count with their level's zeta, not only of the last
 };
 

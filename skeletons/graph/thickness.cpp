@@ -34,14 +34,19 @@ std::map<double, std::vector<std::uint32_t>> endpoints_by_zeta(const PathNodes& 
 }
 
 /// w = s^zeta, the largest over levels; in no particular unit.
-std::vector<double> path_thickness(const PathNodes& nodes, const GraphThickness& thickness, std::span<const double> zetas) {
-  const double unit = thickness.unit.value_or(0.01 * std::max(0.0, ways_onward(nodes, nodes.endpoints)[0]));
-  std::vector<double> w(nodes.positions.size(), 0.0);
+PathRadii path_thickness(const PathNodes& nodes, const GraphThickness& thickness, std::span<const double> zetas) {
+  const double unit = thickness.unit.value_or(0.001 * std::max(0.0, ways_onward(nodes, nodes.endpoints)[0]));
+  PathRadii w{std::vector(nodes.positions.size(), 0.0), std::vector(nodes.positions.size(), 0.0)};
   if (!(unit > 0)) return w;
   for (const auto& [zeta, endpoints] : endpoints_by_zeta(nodes, thickness.every_level, zetas)) {
     const std::vector<double> way = ways_onward(nodes, endpoints);
-    for (std::size_t i = 0; i < w.size(); ++i)
-      if (way[i] > 0) w[i] = std::max(w[i], std::pow(way[i] / unit, zeta));
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      if (way[i] == kNoWay) continue;
+      const std::uint32_t parent = nodes.parents[i];
+      const double edge = glm::length(nodes.positions[i] - nodes.positions[parent]);
+      w.base[i] = std::max(w.base[i], std::pow((way[i] + edge) / unit, zeta));
+      w.tip[parent] = std::max(w.tip[parent], w.base[i]);
+    }
   }
   return w;
 }
@@ -56,21 +61,22 @@ std::vector<double> tips_beyond(const PathNodes& nodes) {
   return tips;
 }
 
-/// Every tip alike: r = tips^(1/e), in tips' radii.
-std::vector<double> pipe_thickness(const PathNodes& nodes, const GraphThickness& thickness) {
+/// Every tip alike: r = tips^(1/e), in tips' radii; an edge is as thick all along.
+PathRadii pipe_thickness(const PathNodes& nodes, const GraphThickness& thickness) {
   std::vector<double> w = tips_beyond(nodes);
   const double ratio = std::log(thickness.trunk_radius / thickness.tip_radius);
   const double inverse = thickness.exponent ? 1 / *thickness.exponent : w[0] > 1 ? ratio / std::log(w[0]) : 0.0;
   for (double& r : w) r = std::pow(r, inverse);
-  return w;
+  return {w, w};
 }
 
 }  // namespace
 
-std::vector<double> path_radii(const PathNodes& nodes, const GraphThickness& thickness, std::span<const double> zetas) {
-  std::vector<double> radii = thickness.rule == ThicknessRule::kPipe ? pipe_thickness(nodes, thickness) : path_thickness(nodes, thickness, zetas);
-  const double scale = radii[0] > 0 ? thickness.trunk_radius / radii[0] : 0.0;
-  for (double& radius : radii) radius = std::max(scale * radius, thickness.tip_radius);
+PathRadii path_radii(const PathNodes& nodes, const GraphThickness& thickness, std::span<const double> zetas) {
+  PathRadii radii = thickness.rule == ThicknessRule::kPipe ? pipe_thickness(nodes, thickness) : path_thickness(nodes, thickness, zetas);
+  const double scale = radii.tip[0] > 0 ? thickness.trunk_radius / radii.tip[0] : 0.0;
+  for (std::vector<double>* ends : {&radii.tip, &radii.base})
+    for (double& radius : *ends) radius = std::max(scale * radius, thickness.tip_radius);
   return radii;
 }
 

@@ -15,8 +15,13 @@ struct PathNodes {
   std::span<const std::uint8_t> endpoint_levels;   ///< of each: 1, 2, ...
 };
 
-/// Radius of each node, metres; trunk_radius at the root unless there is no path. zetas: by level, the last goes on.
-/// Cost: linear in the nodes for each different zeta.
-std::vector<double> path_radii(const PathNodes& nodes, const GraphThickness& thickness, std::span<const double> zetas);
+/// Metres, by node.
+struct PathRadii {
+  std::vector<double> tip;           ///< at the node; trunk_radius at the root unless there is no path
+  std::vector<double> base;          ///< where the edge to the node begins: of its own way, so not more than its parent's
+};
+
+/// zetas: by level, the last goes on. Cost: linear in the nodes for each different zeta.
+PathRadii path_radii(const PathNodes& nodes, const GraphThickness& thickness, std::span<const double> zetas);
 
 }  // namespace cambium

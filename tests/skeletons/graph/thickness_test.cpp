@@ -15,9 +15,10 @@ struct Tree {
   std::vector<std::uint32_t> endpoints = {2, 3, 4};
   std::vector<std::uint8_t> levels = {1, 2, 2};
 
-  std::vector<double> radii(const GraphThickness& thickness, std::vector<double> zetas) const {
+  PathRadii both(const GraphThickness& thickness, std::vector<double> zetas) const {
     return path_radii({positions, parents, endpoints, levels}, thickness, zetas);
   }
+  std::vector<double> radii(const GraphThickness& thickness, std::vector<double> zetas) const { return both(thickness, zetas).tip; }
 };
 
 TEST(Thickness, IsAPowerOfTheLongestWayOn) {
@@ -28,6 +29,15 @@ TEST(Thickness, IsAPowerOfTheLongestWayOn) {
   EXPECT_DOUBLE_EQ(r[2], scale);
   EXPECT_DOUBLE_EQ(r[3], 0.001);
   EXPECT_DOUBLE_EQ(r[4], 0.001);
+}
+
+TEST(Thickness, OfALateralBeginsWithItsOwnWay) {
+  const auto base = Tree().both({.trunk_radius = 0.2, .unit = 1, .every_level = false}, {0.6, 0.5}).base;
+  const double scale = 0.2 / std::sqrt(5.0);
+  EXPECT_DOUBLE_EQ(base[1], 0.2);
+  EXPECT_DOUBLE_EQ(base[2], scale * std::sqrt(3.0)) << "the same way on as the lateral's, which is 3 m long";
+  EXPECT_DOUBLE_EQ(base[4], scale * std::sqrt(3.0));
+  EXPECT_DOUBLE_EQ(base[3], scale);
 }
 
 TEST(Thickness, IsTheLargestThatAnyLevelAsksFor) {
