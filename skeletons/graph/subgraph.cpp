@@ -63,11 +63,11 @@ GraphVolume subgraph_volume(const GraphLevel& level, const Vec3& root, const Vec
                             const std::shared_ptr<const Obstacles>& obstacles) {
   if (level.shape.empty())
     return GraphVolume({PlacedSolid{.solid = BallSolid{radius, level.alpha}, .origin = root, .axis = direction}}, obstacles);
-  const SolidFrame frame(PlacedSolid{.solid = BallSolid{}, .axis = direction});
+  const SolidFrame turned(PlacedSolid{.solid = BallSolid{}, .axis = direction});
   std::vector<PlacedSolid> shape = level.shape;
   for (PlacedSolid& placed : shape) {
-    placed.origin = root + radius * (glm::transpose(frame.to_local) * placed.origin);
-    placed.axis = glm::transpose(frame.to_local) * placed.axis;
+    placed.origin = root + radius * turned.placed(placed.origin);
+    placed.axis = turned.placed(placed.axis);
     placed.scale *= radius;
   }
   return GraphVolume(std::move(shape), obstacles);
