@@ -1,6 +1,7 @@
 #include "skeletons/graph/graph_volume.h"
 
 #include "blobtree/input_error.h"
+#include "skeletons/graph/spread_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,14 +41,6 @@ std::vector<SolidFrame> frames_of(const std::vector<PlacedSolid>& solids) {
   frames.reserve(solids.size());
   for (const PlacedSolid& placed : solids) frames.emplace_back(placed);
   return frames;
-}
-
-/// The i-th place of the additive sequence in three dimensions (Roberts 2018), in the unit cube.
-Vec3 spread_place(std::size_t i) {
-  constexpr double kStep[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019702};
-  Vec3 p;
-  for (int k = 0; k < 3; ++k) p[k] = 0.5 + kStep[k] * static_cast<double>(i), p[k] -= std::floor(p[k]);
-  return p;
 }
 
 }  // namespace

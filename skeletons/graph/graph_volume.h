@@ -60,6 +60,7 @@ class GraphVolume {
 
   const Box& bounds() const { return bounds_; }
   const std::vector<PlacedSolid>& solids() const { return solids_; }
+  const std::vector<SolidFrame>& frames() const { return frames_; }   ///< of the solids, in their order
   const std::shared_ptr<const Obstacles>& obstacles() const { return obstacles_; }
   std::size_t parts() const { return parts_; }             ///< subvolumes, the common one (0) included
 

@@ -37,6 +37,11 @@ std::vector<Vec3> yao_directions(int sectors);
 /// The sector that v, not 0, points into; the lower of two at the same angle.
 int yao_sector(std::span<const Vec3> directions, const Vec3& v);
 
+/// How long an edge of kYao may be, metres: three spacings with eight sectors, with more as much farther as makes up for sectors being
+/// narrower. Where nodes are farther apart than `spacing` says, in spacings of as many that fill the same room. Without a bound, nodes
+/// on the surface would be joined across hollows.
+double longest_yao_edge(std::span<const Vec3> positions, double spacing, int sectors);
+
 /// Joins the nodes. `spacing`: the least distance between them, which is what neighbours are looked for by. Edges that would join two
 /// subvolumes or cross an obstacle are left out: of a sector, the nearest node that may be joined is. `parts`: the subvolume of each
 /// node; empty: all are of one. Then, what node 0 does not reach is joined to it by the shortest edges there are (also across

@@ -13,9 +13,9 @@ namespace cambium {
 
 struct PoissonDiscOptions {
   /// Nodes wanted, those given included; unset: as many as fit. Fewer come out where no more fit at `spacing`.
-  std::optional<std::size_t> count;
+  std::optional<std::size_t> count{};
   /// The least distance between any two nodes, metres; unset: chosen so that `count` nodes fill the volume. One of the two is set.
-  std::optional<double> spacing;
+  std::optional<double> spacing{};
   std::uint64_t seed = 0;
 };
 

@@ -1,0 +1,73 @@
+// Throws darts into a cube of space until hardly any more stick (after White, Cline and Egbert 2007, and Ebeida et al. 2012).
+#pragma once
+
+#include "skeletons/graph/graph_volume.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cambium {
+
+/// How cubes divide space for nodes not nearer to each other than `spacing`. A cube is 8 x 8 x 8 cells, a cell so small that two nodes
+/// do not fit in, so that nodes nearer than `spacing` are at most two cells apart.
+struct DartLattice {
+  static constexpr int kCells = 8;     ///< of a cube along each side
+  static constexpr int kReach = 2;     ///< cells
+
+  DartLattice(const Box& bounds, double spacing);
+
+  double cube_side() const { return kCells * cell; }
+  Vec3 corner(const std::array<int, 3>& cube) const { return lo + cube_side() * Vec3(cube[0], cube[1], cube[2]); }
+
+  Vec3 lo, hi;
+  double spacing, cell;
+};
+
+/// One cube's nodes and those beside it, by cell. Made once for each thread, and used for one cube after the other.
+class DartBlock {
+ public:
+  /// misses: so many darts are thrown at a cell where none is inside the volume.
+  DartBlock(const GraphVolume& volume, const DartLattice& lattice, int misses, int halvings);
+
+  /// Begins with another cube.
+  void open(const std::array<int, 3>& cube);
+  /// Nodes that are there already, in the cube or near it; others are ignored.
+  void add(std::span<const Vec3> nodes);
+  /// Appends the nodes that fit in besides. Draws from the stream `seed` alone.
+  void fill(std::uint64_t seed, std::vector<Vec3>& nodes);
+
+ private:
+  static constexpr int kSide = DartLattice::kCells + 2 * DartLattice::kReach;
+  static constexpr std::uint16_t kEnd = 0xffff;
+
+  /// Part of a cell that may have room. Coordinates count from the cube's own first cell, in sizes of the part.
+  struct Place {
+    std::int16_t x, y, z;
+    std::uint16_t darts = 0, outside = 0;
+  };
+
+  void throw_at_all(int level, int darts, std::vector<Vec3>& nodes);
+  bool throw_at(Place& place, int level, std::vector<Vec3>& nodes);
+  void halve_all(int level);
+  bool covered(const Vec3& middle, double half_side) const;
+  bool has_node(int x, int y, int z) const;
+  void put(int x, int y, int z, const Vec3& p);
+  template <class Visit>
+  bool any_near(int x, int y, int z, const Visit& visit) const;
+  std::uint64_t draw() ;
+
+  const GraphVolume& volume_;
+  const DartLattice& lattice_;
+  int misses_, halvings_;
+  Vec3 corner_{0.0};
+  std::uint64_t seed_ = 0, drawn_ = 0;
+  std::array<std::uint16_t, kSide * kSide> rows_{};      // a bit for each cell along x that has nodes
+  std::array<std::uint16_t, kSide * kSide * kSide> head_; // of a cell with nodes, the last of them
+  std::vector<Vec3> near_;
+  std::vector<std::uint16_t> before_;                    // of near_, the one before it in its cell
+  std::vector<Place> places_, halves_;
+};
+
+}  // namespace cambium

@@ -1,0 +1,184 @@
+#include "skeletons/graph/node_graph.h"
+
+#include "blobtree/input_error.h"
+#include "skeletons/graph/component_repair.h"
+#include "skeletons/graph/node_chunks.h"
+#include "skeletons/graph/node_grid.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace cambium {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffff;
+constexpr std::size_t kGrain = 2048;   // nodes, some milliseconds
+/// Within that many spacings, times the cube root of the sectors, nine nodes are in a sector on average.
+constexpr double kYaoReach = 1.5;
+
+/// The nearest node of each sector, of the nodes that were offered.
+class NearestInSectors {
+ public:
+  NearestInSectors(std::span<const Vec3> directions, double reach)
+      : directions_(directions), reach2_(reach * reach), distance2_(directions.size()), node_(directions.size()) {}
+
+  void clear() {
+    std::fill(distance2_.begin(), distance2_.end(), reach2_);
+    std::fill(node_.begin(), node_.end(), kNone);
+  }
+  template <class Allowed>
+  void offer(std::uint32_t node, const Vec3& way, const Allowed& allowed) {
+    const double d2 = glm::dot(way, way);
+    if (d2 > farthest2() || d2 == 0) return;
+    const auto sector = static_cast<std::size_t>(yao_sector(directions_, way));
+    if (d2 > distance2_[sector] || (d2 == distance2_[sector] && node > node_[sector]) || !allowed(node)) return;
+    distance2_[sector] = d2;
+    node_[sector] = node;
+  }
+  /// Squared; beyond it nothing is of interest any more.
+  double farthest2() const { return *std::max_element(distance2_.begin(), distance2_.end()); }
+  const std::vector<std::uint32_t>& nodes() const { return node_; }
+
+ private:
+  std::span<const Vec3> directions_;
+  double reach2_;
+  std::vector<double> distance2_;
+  std::vector<std::uint32_t> node_;
+};
+
+/// Edges that start at a node, a fixed number of places for each, kNone where there is none.
+struct Arcs {
+  std::size_t places;
+  std::vector<std::uint32_t> to;
+
+  std::span<const std::uint32_t> of(std::uint32_t node) const { return {to.data() + node * places, places}; }
+  bool leads(std::uint32_t from, std::uint32_t node) const {
+    const auto arcs = of(from);
+    return std::find(arcs.begin(), arcs.end(), node) != arcs.end();
+  }
+};
+
+std::optional<Arcs> yao_arcs(std::span<const Vec3> positions, const NodeGrid& grid, const JoinRules& rules, int sectors, double reach,
+                             const RunOptions& run) {
+  const std::vector<Vec3> directions = yao_directions(sectors);
+  Arcs arcs{directions.size(), std::vector<std::uint32_t>(positions.size() * directions.size(), kNone)};
+  const bool finished = in_node_chunks(positions.size(), kGrain, run, [&](std::size_t begin, std::size_t end) {
+    NearestInSectors nearest(directions, reach);
+    for (std::size_t u = begin; u < end; ++u) {
+      nearest.clear();
+      const NodeGrid::Cell cell = grid.cell_of(positions[u]);
+      const auto allowed = [&](std::uint32_t v) { return rules.allow(static_cast<std::uint32_t>(u), v); };
+      for (int ring = 0;; ++ring) {
+        grid.visit_ring(cell, ring, [&](std::uint32_t v) { nearest.offer(v, positions[v] - positions[u], allowed); });
+        const double clearance = grid.clearance(positions[u], cell, ring);
+        if (clearance * clearance > nearest.farthest2()) break;
+      }
+      std::copy(nearest.nodes().begin(), nearest.nodes().end(), arcs.to.begin() + static_cast<std::ptrdiff_t>(u * arcs.places));
+    }
+  });
+  if (!finished) return std::nullopt;
+  return arcs;
+}
+
+/// From counts of what nodes have to where it begins, counts[n] being that of node n - 1; counts[0] is 0.
+void begin_each(std::vector<std::uint32_t>& counts) { std::partial_sum(counts.begin(), counts.end(), counts.begin()); }
+
+bool sort_neighbours(NodeGraph& graph, const RunOptions& run) {
+  return in_node_chunks(graph.nodes(), kGrain, run, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) std::sort(graph.to.begin() + graph.first[n], graph.to.begin() + graph.first[n + 1]);
+  });
+}
+
+/// Each arc as an edge both ways.
+std::optional<NodeGraph> both_ways(const Arcs& arcs, std::size_t nodes, const RunOptions& run) {
+  NodeGraph graph;
+  graph.first.assign(nodes + 1, 0);
+  std::vector<std::uint32_t> returns(nodes, 0);   // arcs to a node that it has not itself
+  const auto of_each_arc = [&](const auto& visit) {
+    return in_node_chunks(nodes, kGrain, run, [&](std::size_t begin, std::size_t end) {
+      for (auto u = static_cast<std::uint32_t>(begin); u < end; ++u)
+        for (const std::uint32_t v : arcs.of(u))
+          if (v != kNone) visit(u, v);
+    });
+  };
+  const auto count = [](std::uint32_t& counter, std::uint32_t by) {
+    return std::atomic_ref<std::uint32_t>(counter).fetch_add(by, std::memory_order_relaxed);
+  };
+  if (!of_each_arc([&](std::uint32_t u, std::uint32_t v) {
+        count(graph.first[u + 1], 1);
+        if (!arcs.leads(v, u)) count(graph.first[v + 1], 1), count(returns[v], 1);
+      }))
+    return std::nullopt;
+  begin_each(graph.first);
+  graph.to.resize(graph.first.back());
+  // Returns are put at the end of a node's, its own arcs before them.
+  std::vector<std::uint32_t> own(nodes, 0);
+  if (!of_each_arc([&](std::uint32_t u, std::uint32_t v) {
+        graph.to[graph.first[u] + own[u]++] = v;
+        if (!arcs.leads(v, u)) graph.to[graph.first[v + 1] - count(returns[v], kNone)] = u;   // counts down
+      }))
+    return std::nullopt;
+  if (!sort_neighbours(graph, run)) return std::nullopt;
+  return graph;
+}
+
+std::optional<NodeGraph> near_pairs(std::span<const Vec3> positions, const NodeGrid& grid, const JoinRules& rules, double longest,
+                                    const RunOptions& run) {
+  NodeGraph graph;
+  graph.first.assign(positions.size() + 1, 0);
+  const auto of_each_pair = [&](const auto& visit) {
+    return in_node_chunks(positions.size(), kGrain, run, [&](std::size_t begin, std::size_t end) {
+      for (auto u = static_cast<std::uint32_t>(begin); u < end; ++u) {
+        const NodeGrid::Cell cell = grid.cell_of(positions[u]);
+        for (int ring = 0;; ++ring) {
+          grid.visit_ring(cell, ring, [&](std::uint32_t v) {
+            const Vec3 way = positions[v] - positions[u];
+            if (v != u && glm::dot(way, way) <= longest * longest && rules.allow(u, v)) visit(u, v);
+          });
+          if (grid.clearance(positions[u], cell, ring) > longest) break;
+        }
+      }
+    });
+  };
+  if (!of_each_pair([&](std::uint32_t u, std::uint32_t) { ++graph.first[u + 1]; })) return std::nullopt;
+  begin_each(graph.first);
+  graph.to.resize(graph.first.back());
+  std::vector<std::uint32_t> found(positions.size(), 0);
+  if (!of_each_pair([&](std::uint32_t u, std::uint32_t v) { graph.to[graph.first[u] + found[u]++] = v; })) return std::nullopt;
+  if (!sort_neighbours(graph, run)) return std::nullopt;
+  return graph;
+}
+
+void require(bool holds, const char* key, double value, const char* expected) {
+  if (!holds) throw InputError({}, std::string(key) + " = " + std::to_string(value), expected);
+}
+
+}  // namespace
+
+double longest_yao_edge(std::span<const Vec3> positions, double spacing, int sectors) {
+  return kYaoReach * std::cbrt(sectors) * std::max(spacing, NodeGrid(positions, 2 * spacing).natural_spacing());
+}
+
+std::optional<NodeGraph> join_nodes(std::span<const Vec3> positions, double spacing, std::span<const std::uint16_t> parts,
+                                    const Obstacles* obstacles, const EdgeOptions& options, const RunOptions& run) {
+  require(spacing > 0 && std::isfinite(spacing), "spacing", spacing, "a finite spacing above 0");
+  if (options.rule == EdgeRule::kThreshold) require(options.threshold > 1, "threshold", options.threshold, "more than 1");
+  const JoinRules rules{positions, parts, obstacles};
+  std::optional<NodeGraph> graph;
+  {
+    const NodeGrid grid(positions, 2 * spacing);
+    if (options.rule == EdgeRule::kThreshold) {
+      graph = near_pairs(positions, grid, rules, options.threshold * spacing, run);
+    } else {
+      const double reach = kYaoReach * std::cbrt(options.sectors) * std::max(spacing, grid.natural_spacing());
+      if (const auto arcs = yao_arcs(positions, grid, rules, options.sectors, reach, run)) graph = both_ways(*arcs, positions.size(), run);
+    }
+  }
+  if (!graph || !reach_all(*graph, rules, spacing, run)) return std::nullopt;
+  return graph;
+}
+
+}  // namespace cambium
