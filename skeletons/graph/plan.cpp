@@ -29,7 +29,7 @@ struct Subgraph {
   Vec3 direction{0, 0, 1};
   double radius = 0;
   int endpoints = 0;
-  std::optional<LifespanDecrement> decrement;   ///< of all its endpoints; unset: each draws its own
+  std::optional<LifespanDecrement> decrement = {};   ///< of all its endpoints; unset: each draws its own
   std::uint64_t stream = 0;
 };
 

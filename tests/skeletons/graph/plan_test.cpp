@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace cambium {
@@ -41,6 +43,12 @@ bool same_nodes(const Skeleton& a, const Skeleton& b) {
   for (std::size_t i = 0; i < a.nodes.size(); ++i)
     if (a.nodes[i].position != b.nodes[i].position || a.nodes[i].radius != b.nodes[i].radius || a.nodes[i].parent != b.nodes[i].parent) return false;
   return true;
+}
+
+RunOptions on_threads(int threads) {
+  RunOptions run;
+  run.threads = threads;
+  return run;
 }
 
 std::string refusal_of(const GraphOptions& options) {
@@ -98,8 +106,8 @@ TEST(Plan, PutsTheFirstEndpointsWhereTheVolumeBearsThem) {
 
 TEST(Plan, IsTheSameAtAnyThreadCountAndAnotherForAnotherSeed) {
   GraphOptions options = small_tree();
-  const GraphPlan plan = plan_tree(options, {.threads = 1}).value();
-  for (const int threads : {2, 4}) EXPECT_TRUE(same_nodes(plan.skeleton, plan_tree(options, {.threads = threads}).value().skeleton));
+  const GraphPlan plan = plan_tree(options, on_threads(1)).value();
+  for (const int threads : {2, 4}) EXPECT_TRUE(same_nodes(plan.skeleton, plan_tree(options, on_threads(threads)).value().skeleton));
   options.seed = 6;
   EXPECT_FALSE(same_nodes(plan.skeleton, plan_tree(options).value().skeleton));
 }
@@ -149,38 +157,57 @@ TEST(Plan, BuildsAroundTheEndpointsOfAllLevelsBefore) {
   EXPECT_EQ(report.levels[2].graphs, 9u + 45);
 }
 
-TEST(Plan, TurnsBranchesDownLevelByLevel) {
-  GraphOptions options = small_tree();
-  for (const double angle : {-0.4, 0.4}) {
-    for (int i : {1, 2}) options.levels[i].turn.angle = angle, options.levels[i].alpha = 0.1 * kPi;
-    const GraphPlan plan = plan_tree(options).value();
-    const auto first = endpoints_of_level(plan, 1), second = endpoints_of_level(plan, 2);
-    double rise = 0;
-    for (std::size_t i = 0; i < second.size(); ++i) {
-      const Vec3 out = glm::normalize(first[i / 5]), on = glm::normalize(second[i] - first[i / 5]);
-      rise += (on.z - out.z) / static_cast<double>(second.size());
-    }
-    EXPECT_GT(rise * angle, 0.02) << angle;
-  }
+/// How much steeper than its level 1 the tree's level 2 rises, as the mean change of a unit way's height.
+double mean_lift(GraphOptions options, double angle) {
+  options.levels[1].turn.angle = angle;
+  options.levels[1].alpha = 0.1 * kPi;
+  const GraphPlan plan = plan_tree(options).value();
+  const auto first = endpoints_of_level(plan, 1), second = endpoints_of_level(plan, 2);
+  double lift = 0;
+  for (std::size_t i = 0; i < second.size(); ++i)
+    lift += (glm::normalize(second[i] - first[i / 5]).z - glm::normalize(first[i / 5]).z) / static_cast<double>(second.size());
+  return lift;
 }
 
-TEST(Plan, DealsEndpointsToBranchesThatLookIntoTheLight) {
+TEST(Plan, TurnsBranchesUpOrDown) {
+  const double straight = mean_lift(small_tree(), 0);
+  EXPECT_LT(mean_lift(small_tree(), -0.4), straight - 0.1);
+  EXPECT_GT(mean_lift(small_tree(), 0.4), straight + 0.03);
+}
+
+TEST(Plan, DealsMostEndpointsToTheBranchThatLooksMostIntoTheLight) {
   GraphOptions options = small_tree();
   options.levels[1].endpoints = {1, 12};
   options.levels.pop_back();
   options.light = GraphLight{{1, 0, 0}, true, false};
   const GraphPlan plan = plan_tree(options).value();
-  const auto first = endpoints_of_level(plan, 1);
-  std::vector<int> counts(first.size(), 0);
-  for (const Vec3& p : endpoints_of_level(plan, 2)) {
-    std::size_t nearest = 0;
-    for (std::size_t i = 0; i < first.size(); ++i)
-      if (glm::length(p - first[i]) < glm::length(p - first[nearest])) nearest = i;
-    ++counts[nearest];
+  std::map<std::uint32_t, int> counts;                     // of endpoints of level 2, by the one of level 1 that bears them
+  for (std::size_t i = 0; i < plan.endpoints.size(); ++i)
+    if (plan.endpoint_levels[i] == 1) counts[plan.endpoints[i]] = 0;
+  const std::size_t first = counts.size();
+  for (std::size_t i = first; i < plan.endpoints.size(); ++i) {
+    auto node = static_cast<std::int32_t>(plan.endpoints[i]);
+    while (!counts.contains(static_cast<std::uint32_t>(node))) node = plan.skeleton.nodes[static_cast<std::size_t>(node)].parent;
+    ++counts[static_cast<std::uint32_t>(node)];
   }
-  double sun = 0, shade = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) (first[i].x > 0 ? sun : shade) += counts[i];
-  EXPECT_GT(sun, 1.5 * shade);
+  std::vector<std::pair<double, int>> ranked;              // by the cosine of the angle to the light
+  for (const auto& [node, count] : counts) ranked.emplace_back(glm::normalize(plan.skeleton.nodes[node].position).x, count);
+  std::sort(ranked.begin(), ranked.end());
+  for (std::size_t i = 1; i < ranked.size(); ++i) EXPECT_LE(ranked[i - 1].second, ranked[i].second);
+  EXPECT_GT(ranked.back().second, ranked.front().second + 3);
+}
+
+TEST(Plan, LetsBranchesInTheLightLiveLongest) {
+  GraphOptions options = small_tree();
+  options.lifespan.outcomes = {{1, 1, 3, false}};
+  options.lifespan.initial = 2;                            // so that half of the branches end after level 2
+  options.light = GraphLight{{1, 0, 0}, false, true};
+  const GraphPlan plan = plan_tree(options).value();
+  double first = 0, last = 0;
+  const auto level1 = endpoints_of_level(plan, 1), level3 = endpoints_of_level(plan, 3);
+  for (const Vec3& p : level1) first += p.x / static_cast<double>(level1.size());
+  for (const Vec3& p : level3) last += p.x / static_cast<double>(level3.size());
+  EXPECT_GT(last, first + 0.1);
 }
 
 TEST(Plan, KeepsOutOfObstacles) {
@@ -276,7 +303,9 @@ TEST(Plan, RefusesWhatHasNoRoomByTheKeyThatSaysSo) {
 
 TEST(Plan, StopsWhenCancelled) {
   const std::atomic<bool> cancel{true};
-  EXPECT_FALSE(plan_tree(small_tree(), {.cancel = &cancel}).has_value());
+  RunOptions run;
+  run.cancel = &cancel;
+  EXPECT_FALSE(plan_tree(small_tree(), run).has_value());
 }
 
 }  // namespace
