@@ -10,6 +10,7 @@
 #include "skeletons/graph/edge_weights.h"
 #include "skeletons/graph/graph_volume.h"
 #include "skeletons/graph/node_graph.h"
+#include "skeletons/graph/refinement.h"
 #include "skeletons/skeleton.h"
 
 #include <array>
@@ -117,13 +118,6 @@ struct GraphThickness {
 };
 
 // ---- all of it -------------------------------------------------------------------------------------------------
-
-/// The first level's volume filled with smaller ones (figure 12).
-struct GraphRefinement {
-  std::size_t spheres = 7;           ///< about as many, 2 to 64
-  double radius = 0.5;               ///< of each, in distances between their centres
-  double cone_radius = 0.5;          ///< of the connector where it meets the sphere, in the sphere's radii
-};
 
 struct GraphOptions {
   Vec3 root{0.0};                    ///< metres; in the first volume or on its surface
