@@ -4,11 +4,15 @@ include(CMakePackageConfigHelpers)
 set(public_headers
   blobtree/blobtree.h blobtree/blobtree_json.h blobtree/cell_grid.h blobtree/cell_search.h blobtree/field.h blobtree/geometry.h
   blobtree/id_table.h blobtree/input_error.h blobtree/invalid_node.h blobtree/node_store.h blobtree/nodes.h blobtree/run_options.h
-  blobtree/branch_info.h blobtree/choices.h blobtree/sheet.h blobtree/surface_cover.h
+  blobtree/box_tree.h blobtree/branch_info.h blobtree/choices.h blobtree/float_box.h blobtree/place_hash.h blobtree/sheet.h
+  blobtree/surface_cover.h
   skeletons/foliage.h skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
+  skeletons/graph/closed_mesh.h skeletons/graph/edge_weights.h skeletons/graph/graph_volume.h skeletons/graph/node_graph.h
+  skeletons/graph/plan.h skeletons/graph/prepared_solid.h skeletons/graph/settled_cells.h skeletons/graph/solids.h
+  skeletons/graph/svg_path.h
   lsystem/dialect.h lsystem/growth.h lsystem/growth_parts.h lsystem/lsystem.h
   polygonize/ambient_occlusion.h polygonize/decimate.h polygonize/mesh.h polygonize/mesh_attributes.h polygonize/mesh_io.h
-  polygonize/polygonize.h polygonize/verify.h polygonize/volume.h
+  polygonize/mesh_read.h polygonize/polygonize.h polygonize/verify.h polygonize/volume.h polygonize/volume_read.h
   raytrace/aov.h raytrace/bark.h raytrace/bark_noise.h raytrace/bark_number.h raytrace/bark_pattern.h raytrace/camera.h
   raytrace/environment.h raytrace/film.h raytrace/foliage_scene.h raytrace/foliage_texture.h raytrace/image_file.h raytrace/light.h raytrace/path_options.h
   raytrace/pixel_rect.h raytrace/render.h raytrace/sampling.h raytrace/texture_image.h)
