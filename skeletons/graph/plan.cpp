@@ -5,6 +5,7 @@
 #include "skeletons/graph/lifespan.h"
 #include "skeletons/graph/path_smoothing.h"
 #include "skeletons/graph/plan_checks.h"
+#include "skeletons/graph/refinement.h"
 #include "skeletons/graph/subgraph.h"
 #include "skeletons/graph/thickness.h"
 
@@ -88,7 +89,11 @@ class Planner {
   std::uint64_t level_stream(std::size_t level) const { return hash_of(options_.seed, level); }
 
   GraphVolume first_volume() const {
-    return GraphVolume(options_.volume, options_.obstacles);
+    if (!options_.refinement) return GraphVolume(options_.volume, options_.obstacles);
+    return naming("refinement", [&] {
+      const std::uint64_t stream = hash_of(options_.seed, 1, kRefine);
+      return GraphVolume(refined(options_.volume, *options_.refinement, options_.root, options_.obstacles.get(), stream), options_.obstacles);
+    });
   }
 
   bool grow_first_level() {

@@ -272,14 +272,30 @@ TEST(Plan, JoinsRootsBelowTheTrunkIntoOneSkeleton) {
   EXPECT_EQ(plan_tree(options).value().skeleton.nodes.size(), above);
 }
 
-TEST(Plan, KeepsSubvolumesApart) {
+/// Sizes of the groups that places fall into where those nearer to each other than `gap` are of one.
+std::vector<std::size_t> clusters(const std::vector<Vec3>& places, double gap) {
+  std::vector<std::size_t> group(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) group[i] = i;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (glm::length(places[i] - places[j]) < gap && group[i] != group[j]) std::replace(group.begin(), group.end(), group[j], group[i]);
+  std::map<std::size_t, std::size_t> sizes;
+  for (const std::size_t g : group) ++sizes[g];
+  std::vector<std::size_t> all;
+  for (const auto& [g, size] : sizes) all.push_back(size);
+  return all;
+}
+
+TEST(Plan, GivesEachSubvolumeAsManyEndpoints) {
   GraphOptions options = small_tree();
-  options.refinement = GraphRefinement{};
-  options.lifespan.initial = 0;
-  options.levels[0].endpoints = {40, 40};
-  options.smoothing = 0;
-  const GraphPlan plan = plan_tree(options).value();
-  EXPECT_EQ(plan.endpoints.size(), 40u);
+  options.refinement = GraphRefinement{2, 0.25, 0.5};
+  options.levels[0].endpoints = {60, 60};
+  options.levels.resize(1);
+  const auto endpoints = endpoints_of_level(plan_tree(options).value(), 1);
+  double widest = 0;
+  for (const Vec3& a : endpoints)
+    for (const Vec3& b : endpoints) widest = std::max(widest, glm::length(a - b));
+  EXPECT_EQ(clusters(endpoints, 0.3 * widest), (std::vector<std::size_t>{30, 30}));
 }
 
 TEST(Plan, RefusesWhatHasNoRoomByTheKeyThatSaysSo) {
