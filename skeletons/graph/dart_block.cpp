@@ -9,9 +9,10 @@
 namespace cambium {
 namespace {
 
-constexpr int kCells = DartLattice::kCells, kReach = DartLattice::kReach;
+constexpr int kCells = DartLattice::kCells, kReach = DartLattice::kReach, kGroups = DartLattice::kGroups;
+constexpr unsigned kRowMask = (1u << kGroups) - 1;
 constexpr int kStep = 197;             // odd: cells of a cube are gone through in a scattered order
-constexpr int kDarts = 3;              // at a whole cell
+constexpr int kDarts = 4;              // at a whole cell
 constexpr int kDartsAtHalf = 1;        // at each of its eighths, and theirs
 
 /// Three numbers in (0, 1) from one draw, in steps of 2^-21.
@@ -21,7 +22,51 @@ Vec3 unit_place(std::uint64_t bits) {
   return {unit(bits & kMask), unit(bits >> 21 & kMask), unit(bits >> 42 & kMask)};
 }
 
+/// A bit for each group of a cube and of those beside it, x in the bits, y and z in the rows; the cube's own first group is bit 1 of row 1.
+using GroupRows = std::array<std::array<unsigned, kGroups + 2>, kGroups + 2>;
+
+GroupRows rows_of(const std::array<GroupBits, 27>& around) {
+  GroupRows rows{};
+  for (int z = -1; z <= kGroups; ++z)
+    for (int y = -1; y <= kGroups; ++y) {
+      const int dz = (z + kGroups) / kGroups, dy = (y + kGroups) / kGroups;   // 0, 1, 2: the cube before, this, the next
+      const int shift = ((z + kGroups) % kGroups * kGroups + (y + kGroups) % kGroups) * kGroups;
+      const auto row = [&](int dx) { return static_cast<unsigned>(around[std::size_t((dz * 3 + dy) * 3 + dx)] >> shift) & kRowMask; };
+      rows[std::size_t(z + 1)][std::size_t(y + 1)] = row(0) >> (kGroups - 1) | row(1) << 1 | (row(2) & 1) << (kGroups + 1);
+    }
+  return rows;
+}
+
 }  // namespace
+
+GroupBits groups_inside(const GraphVolume& volume, const DartLattice& lattice, const std::array<int, 3>& cube, int tries) {
+  GroupBits groups = 0;
+  const Vec3 corner = lattice.corner(cube);
+  for (unsigned i = 0; i < 64; ++i) {
+    const Vec3 lo = corner + lattice.group_side() * Vec3(i % kGroups, i / kGroups % kGroups, i / (kGroups * kGroups));
+    const Vec3 size = glm::min(lo + lattice.group_side(), lattice.hi) - lo;
+    if (size.x < 0 || size.y < 0 || size.z < 0) continue;
+    for (std::uint64_t k = 0; k < std::uint64_t(tries); ++k)
+      if (volume.contains(lo + size * unit_place(hash_of(i, k)))) {
+        groups |= GroupBits{1} << i;
+        break;
+      }
+  }
+  return groups;
+}
+
+GroupBits grown(const std::array<GroupBits, 27>& around) {
+  const GroupRows rows = rows_of(around);
+  GroupBits groups = 0;
+  for (std::size_t z = 0; z < kGroups; ++z)
+    for (std::size_t y = 0; y < kGroups; ++y) {
+      unsigned row = 0;
+      for (std::size_t dz = 0; dz < 3; ++dz)
+        for (std::size_t dy = 0; dy < 3; ++dy) row |= rows[z + dz][y + dy];
+      groups |= GroupBits{(row >> 1 | row | row << 1) >> 1 & kRowMask} << (z * kGroups + y) * kGroups;
+    }
+  return groups;
+}
 
 DartLattice::DartLattice(const Box& bounds, double least)
     : lo(bounds.lo), hi(bounds.hi), spacing(least), cell(least / std::numbers::sqrt3 * (1 - 1e-9)) {}
@@ -80,12 +125,11 @@ bool DartBlock::throw_at(Place& place, int level, std::vector<Vec3>& nodes) {
   const Vec3 p = lo + unit_place(draw()) * (glm::min(lo + side, lattice_.hi) - lo);
   const int x = place.x >> level, y = place.y >> level, z = place.z >> level;
   const double least2 = lattice_.spacing * lattice_.spacing;
+  const bool surely_inside = place.darts > place.outside;   // of some of the place; then what is near is the cheaper question
   ++place.darts;
+  if (!surely_inside && !volume_.contains(p)) return ++place.outside, false;
   if (any_near(x, y, z, [&](const Vec3& q) { return glm::dot(p - q, p - q) < least2; })) return false;
-  if (!volume_.contains(p)) {
-    ++place.outside;
-    return false;
-  }
+  if (surely_inside && !volume_.contains(p)) return ++place.outside, false;
   put(x, y, z, p);
   nodes.push_back(p);
   return true;
@@ -133,17 +177,22 @@ void DartBlock::halve_all(int level) {
   places_.swap(halves_);
 }
 
-void DartBlock::fill(std::uint64_t seed, std::vector<Vec3>& nodes) {
-  seed_ = seed;
-  drawn_ = 0;
+void DartBlock::find_places(GroupBits groups) {
   places_.clear();
   for (int i = 0; i < kCells * kCells * kCells; ++i) {
     const int c = i * kStep % (kCells * kCells * kCells);
-    const Place place{static_cast<std::int16_t>(c % kCells), static_cast<std::int16_t>(c / kCells % kCells),
-                      static_cast<std::int16_t>(c / (kCells * kCells))};
-    const Vec3 lo = corner_ + lattice_.cell * Vec3(place.x, place.y, place.z);
-    if (lo.x <= lattice_.hi.x && lo.y <= lattice_.hi.y && lo.z <= lattice_.hi.z) places_.push_back(place);
+    const int x = c % kCells, y = c / kCells % kCells, z = c / (kCells * kCells);
+    if (!(groups >> ((z / 2 * kGroups + y / 2) * kGroups + x / 2) & 1) || has_node(x, y, z)) continue;
+    const Vec3 lo = corner_ + lattice_.cell * Vec3(x, y, z);
+    if (lo.x <= lattice_.hi.x && lo.y <= lattice_.hi.y && lo.z <= lattice_.hi.z)
+      places_.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(z)});
   }
+}
+
+void DartBlock::fill(std::uint64_t seed, GroupBits groups, std::vector<Vec3>& nodes) {
+  seed_ = seed;
+  drawn_ = 0;
+  find_places(groups);
   throw_at_all(0, kDarts, nodes);
   for (int level = 1; level <= halvings_; ++level) {
     halve_all(level - 1);

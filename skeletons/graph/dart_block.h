@@ -14,29 +14,41 @@ namespace cambium {
 /// do not fit in, so that nodes nearer than `spacing` are at most two cells apart.
 struct DartLattice {
   static constexpr int kCells = 8;     ///< of a cube along each side
+  static constexpr int kGroups = 4;    ///< of 2 x 2 x 2 cells, likewise
   static constexpr int kReach = 2;     ///< cells
 
   DartLattice(const Box& bounds, double spacing);
 
   double cube_side() const { return kCells * cell; }
+  double group_side() const { return cube_side() / kGroups; }
   Vec3 corner(const std::array<int, 3>& cube) const { return lo + cube_side() * Vec3(cube[0], cube[1], cube[2]); }
 
   Vec3 lo, hi;
   double spacing, cell;
 };
 
+/// Which groups of cells of a cube hold some of the volume, a bit for each, x fastest.
+using GroupBits = std::uint64_t;
+static_assert(DartLattice::kGroups * DartLattice::kGroups * DartLattice::kGroups == 64);
+
+/// Looks at `tries` places in each group, until one is inside.
+GroupBits groups_inside(const GraphVolume& volume, const DartLattice& lattice, const std::array<int, 3>& cube, int tries);
+
+/// The groups of a cube beside one that is set, or set themselves; from those of the 27 cubes around it, x fastest.
+GroupBits grown(const std::array<GroupBits, 27>& around);
+
 /// One cube's nodes and those beside it, by cell. Made once for each thread, and used for one cube after the other.
 class DartBlock {
  public:
-  /// misses: so many darts are thrown at a cell where none is inside the volume.
+  /// misses: so many darts that fall beside the volume are thrown at a cell.
   DartBlock(const GraphVolume& volume, const DartLattice& lattice, int misses, int halvings);
 
   /// Begins with another cube.
   void open(const std::array<int, 3>& cube);
   /// Nodes that are there already, in the cube or near it; others are ignored.
   void add(std::span<const Vec3> nodes);
-  /// Appends the nodes that fit in besides. Draws from the stream `seed` alone.
-  void fill(std::uint64_t seed, std::vector<Vec3>& nodes);
+  /// Appends the nodes that fit in besides, in those groups of cells. Draws from the stream `seed` alone.
+  void fill(std::uint64_t seed, GroupBits groups, std::vector<Vec3>& nodes);
 
  private:
   static constexpr int kSide = DartLattice::kCells + 2 * DartLattice::kReach;
@@ -48,6 +60,7 @@ class DartBlock {
     std::uint16_t darts = 0, outside = 0;
   };
 
+  void find_places(GroupBits groups);
   void throw_at_all(int level, int darts, std::vector<Vec3>& nodes);
   bool throw_at(Place& place, int level, std::vector<Vec3>& nodes);
   void halve_all(int level);
@@ -56,7 +69,7 @@ class DartBlock {
   void put(int x, int y, int z, const Vec3& p);
   template <class Visit>
   bool any_near(int x, int y, int z, const Visit& visit) const;
-  std::uint64_t draw() ;
+  std::uint64_t draw();
 
   const GraphVolume& volume_;
   const DartLattice& lattice_;
