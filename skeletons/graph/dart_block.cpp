@@ -102,18 +102,23 @@ void DartBlock::add(std::span<const Vec3> nodes) {
 
 bool DartBlock::has_node(int x, int y, int z) const { return rows_[(z + kReach) * kSide + y + kReach] >> (x + kReach) & 1; }
 
-/// Whether visit is true of a node in the cells around one of the cube's own.
-template <class Visit>
-bool DartBlock::any_near(int x, int y, int z, const Visit& visit) const {
+/// A node in the cells around one of the cube's own, of which the test is true; kEnd: there is none.
+template <class Test>
+std::uint16_t DartBlock::first_near(int x, int y, int z, const Test& test) const {
   static constexpr int kByNearness[2 * kReach + 1] = {0, -1, 1, -2, 2};
   for (const int dz : kByNearness)
     for (const int dy : kByNearness) {
       const int row = (z + kReach + dz) * kSide + y + kReach + dy;
       for (unsigned bits = rows_[row] >> x & 0b11111u; bits != 0; bits &= bits - 1)
         for (std::uint16_t i = head_[row * kSide + x + std::countr_zero(bits)]; i != kEnd; i = before_[i])
-          if (visit(near_[i])) return true;
+          if (test(i)) return i;
     }
-  return false;
+  return kEnd;
+}
+
+bool DartBlock::too_near(const Vec3& p, std::uint16_t node) const {
+  const Vec3 way = p - near_[node];
+  return glm::dot(way, way) < lattice_.spacing * lattice_.spacing;
 }
 
 std::uint64_t DartBlock::draw() { return mix_bits(seed_ + 0x9e3779b97f4a7c15ull * ++drawn_); }
@@ -124,11 +129,12 @@ bool DartBlock::throw_at(Place& place, int level, std::vector<Vec3>& nodes) {
   const Vec3 lo = corner_ + side * Vec3(place.x, place.y, place.z);
   const Vec3 p = lo + unit_place(draw()) * (glm::min(lo + side, lattice_.hi) - lo);
   const int x = place.x >> level, y = place.y >> level, z = place.z >> level;
-  const double least2 = lattice_.spacing * lattice_.spacing;
   const bool surely_inside = place.darts > place.outside;   // of some of the place; then what is near is the cheaper question
   ++place.darts;
+  if (place.blocker != kEnd && too_near(p, place.blocker)) return false;
   if (!surely_inside && !volume_.contains(p)) return ++place.outside, false;
-  if (any_near(x, y, z, [&](const Vec3& q) { return glm::dot(p - q, p - q) < least2; })) return false;
+  place.blocker = first_near(x, y, z, [&](std::uint16_t node) { return too_near(p, node); });
+  if (place.blocker != kEnd) return false;
   if (surely_inside && !volume_.contains(p)) return ++place.outside, false;
   put(x, y, z, p);
   nodes.push_back(p);
@@ -153,25 +159,29 @@ void DartBlock::throw_at_all(int level, int darts, std::vector<Vec3>& nodes) {
   places_.swap(done);
 }
 
-bool DartBlock::covered(const Vec3& middle, double half_side) const {
-  const Vec3 at = (middle - corner_) / lattice_.cell;
-  return any_near(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z), [&](const Vec3& q) {
-    const Vec3 farthest = glm::abs(middle - q) + half_side;
-    return glm::dot(farthest, farthest) < lattice_.spacing * lattice_.spacing;
-  });
+/// Whether a ball around that node holds all of a cube.
+bool DartBlock::covers(std::uint16_t node, const Vec3& middle, double half_side) const {
+  const Vec3 farthest = glm::abs(middle - near_[node]) + half_side;
+  return glm::dot(farthest, farthest) < lattice_.spacing * lattice_.spacing;
 }
 
 void DartBlock::halve_all(int level) {
   const double side = lattice_.cell / (1 << (level + 1));
   halves_.clear();
   for (const Place& place : places_) {
-    if (has_node(place.x >> level, place.y >> level, place.z >> level)) continue;
+    const int x = place.x >> level, y = place.y >> level, z = place.z >> level;
+    if (has_node(x, y, z)) continue;
     for (int i = 0; i < 8; ++i) {
-      const Place half{static_cast<std::int16_t>(2 * place.x + (i & 1)), static_cast<std::int16_t>(2 * place.y + (i >> 1 & 1)),
-                       static_cast<std::int16_t>(2 * place.z + (i >> 2))};
+      Place half;
+      half.x = static_cast<std::int16_t>(2 * place.x + (i & 1));
+      half.y = static_cast<std::int16_t>(2 * place.y + (i >> 1 & 1));
+      half.z = static_cast<std::int16_t>(2 * place.z + (i >> 2));
+      half.blocker = place.blocker;
       const Vec3 lo = corner_ + side * Vec3(half.x, half.y, half.z);
       if (lo.x >= lattice_.hi.x || lo.y >= lattice_.hi.y || lo.z >= lattice_.hi.z) continue;
-      if (!covered(lo + 0.5 * side, 0.5 * side)) halves_.push_back(half);
+      const auto covers_half = [&](std::uint16_t node) { return covers(node, lo + 0.5 * side, 0.5 * side); };
+      if (half.blocker != kEnd && covers_half(half.blocker)) continue;
+      if (first_near(x, y, z, covers_half) == kEnd) halves_.push_back(half);
     }
   }
   places_.swap(halves_);
@@ -185,7 +195,7 @@ void DartBlock::find_places(GroupBits groups) {
     if (!(groups >> ((z / 2 * kGroups + y / 2) * kGroups + x / 2) & 1) || has_node(x, y, z)) continue;
     const Vec3 lo = corner_ + lattice_.cell * Vec3(x, y, z);
     if (lo.x <= lattice_.hi.x && lo.y <= lattice_.hi.y && lo.z <= lattice_.hi.z)
-      places_.push_back({static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(z)});
+      places_.push_back({.x = static_cast<std::int16_t>(x), .y = static_cast<std::int16_t>(y), .z = static_cast<std::int16_t>(z)});
   }
 }
 

@@ -56,19 +56,21 @@ class DartBlock {
 
   /// Part of a cell that may have room. Coordinates count from the cube's own first cell, in sizes of the part.
   struct Place {
-    std::int16_t x, y, z;
+    std::int16_t x = 0, y = 0, z = 0;
     std::uint16_t darts = 0, outside = 0;
+    std::uint16_t blocker = kEnd;      // in near_, what the last dart was too near to; likely the next one is too
   };
 
   void find_places(GroupBits groups);
   void throw_at_all(int level, int darts, std::vector<Vec3>& nodes);
   bool throw_at(Place& place, int level, std::vector<Vec3>& nodes);
   void halve_all(int level);
-  bool covered(const Vec3& middle, double half_side) const;
+  bool covers(std::uint16_t node, const Vec3& middle, double half_side) const;
+  bool too_near(const Vec3& p, std::uint16_t node) const;
   bool has_node(int x, int y, int z) const;
   void put(int x, int y, int z, const Vec3& p);
-  template <class Visit>
-  bool any_near(int x, int y, int z, const Visit& visit) const;
+  template <class Test>
+  std::uint16_t first_near(int x, int y, int z, const Test& test) const;
   std::uint64_t draw();
 
   const GraphVolume& volume_;

@@ -6,6 +6,7 @@
 #include "skeletons/graph/node_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -16,38 +17,74 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 constexpr std::size_t kGrain = 2048;   // nodes, some milliseconds
+constexpr double kGridSide = 1.25;     // spacings: little more than a node to a cell
 /// Within that many spacings, times the cube root of the sectors, nine nodes are in a sector on average.
 constexpr double kYaoReach = 1.5;
 
-/// The nearest node of each sector, of the nodes that were offered.
+/// The nearest node of each sector around a node, of those that were offered.
 class NearestInSectors {
  public:
+  /// How far a row of cells along x is still of interest, squared; by the signs of y and z from the node to it, each 0, 1 (none) or 2.
+  using RowBounds = std::array<std::array<double, 3>, 3>;
+
   NearestInSectors(std::span<const Vec3> directions, double reach)
       : directions_(directions), reach2_(reach * reach), distance2_(directions.size()), node_(directions.size()) {}
 
   void clear() {
     std::fill(distance2_.begin(), distance2_.end(), reach2_);
     std::fill(node_.begin(), node_.end(), kNone);
+    farthest2_ = reach2_;
   }
   template <class Allowed>
   void offer(std::uint32_t node, const Vec3& way, const Allowed& allowed) {
     const double d2 = glm::dot(way, way);
-    if (d2 > farthest2() || d2 == 0) return;
+    if (d2 > farthest2_) return;
     const auto sector = static_cast<std::size_t>(yao_sector(directions_, way));
-    if (d2 > distance2_[sector] || (d2 == distance2_[sector] && node > node_[sector]) || !allowed(node)) return;
+    if (d2 > distance2_[sector] || (d2 == distance2_[sector] && node > node_[sector]) || d2 == 0 || !allowed(node)) return;
     distance2_[sector] = d2;
     node_[sector] = node;
   }
   /// Squared; beyond it nothing is of interest any more.
-  double farthest2() const { return *std::max_element(distance2_.begin(), distance2_.end()); }
+  double farthest2() { return farthest2_ = *std::max_element(distance2_.begin(), distance2_.end()); }
+  RowBounds row_bounds() const {
+    RowBounds bounds{};
+    if (directions_.size() != 8) {
+      for (auto& of_y : bounds) of_y.fill(farthest2_);
+      return bounds;
+    }
+    for (std::size_t octant = 0; octant < 8; ++octant)
+      for (const std::size_t y : {std::size_t{1}, octant & 2 ? std::size_t{0} : std::size_t{2}})
+        for (const std::size_t z : {std::size_t{1}, octant & 4 ? std::size_t{0} : std::size_t{2}})
+          bounds[y][z] = std::max(bounds[y][z], distance2_[octant]);
+    return bounds;
+  }
   const std::vector<std::uint32_t>& nodes() const { return node_; }
 
  private:
   std::span<const Vec3> directions_;
-  double reach2_;
+  double reach2_, farthest2_ = 0;
   std::vector<double> distance2_;
   std::vector<std::uint32_t> node_;
 };
+
+/// Offers nodes from the inside out, until none that is farther can be of interest.
+template <class Allowed>
+void search_around(std::uint32_t u, std::span<const Vec3> positions, const NodeGrid& grid, const Allowed& allowed, NearestInSectors& nearest) {
+  const Vec3& p = positions[u];
+  const NodeGrid::Cell cell = grid.cell_of(p);
+  nearest.clear();
+  for (int ring = 0;; ++ring) {
+    const NearestInSectors::RowBounds bounds = nearest.row_bounds();
+    const auto sign = [](int away) { return static_cast<std::size_t>(1 + (away > 0) - (away < 0)); };
+    const auto skips = [&](int dy, int dz) {
+      const double y = grid.distance_to(p, cell, 1, dy), z = grid.distance_to(p, cell, 2, dz);
+      return y * y + z * z > bounds[sign(dy)][sign(dz)] * (1 + 1e-12);
+    };
+    grid.visit_ring(cell, ring, skips, [&](std::uint32_t v) { nearest.offer(v, positions[v] - p, allowed); });
+    const double clearance = grid.clearance(p, cell, ring);
+    if (clearance * clearance > nearest.farthest2()) return;
+  }
+}
 
 /// Edges that start at a node, a fixed number of places for each, kNone where there is none.
 struct Arcs {
@@ -67,15 +104,8 @@ std::optional<Arcs> yao_arcs(std::span<const Vec3> positions, const NodeGrid& gr
   Arcs arcs{directions.size(), std::vector<std::uint32_t>(positions.size() * directions.size(), kNone)};
   const bool finished = in_node_chunks(positions.size(), kGrain, run, [&](std::size_t begin, std::size_t end) {
     NearestInSectors nearest(directions, reach);
-    for (std::size_t u = begin; u < end; ++u) {
-      nearest.clear();
-      const NodeGrid::Cell cell = grid.cell_of(positions[u]);
-      const auto allowed = [&](std::uint32_t v) { return rules.allow(static_cast<std::uint32_t>(u), v); };
-      for (int ring = 0;; ++ring) {
-        grid.visit_ring(cell, ring, [&](std::uint32_t v) { nearest.offer(v, positions[v] - positions[u], allowed); });
-        const double clearance = grid.clearance(positions[u], cell, ring);
-        if (clearance * clearance > nearest.farthest2()) break;
-      }
+    for (auto u = static_cast<std::uint32_t>(begin); u < end; ++u) {
+      search_around(u, positions, grid, [&](std::uint32_t v) { return rules.allow(u, v); }, nearest);
       std::copy(nearest.nodes().begin(), nearest.nodes().end(), arcs.to.begin() + static_cast<std::ptrdiff_t>(u * arcs.places));
     }
   });
@@ -134,7 +164,7 @@ std::optional<NodeGraph> near_pairs(std::span<const Vec3> positions, const NodeG
       for (auto u = static_cast<std::uint32_t>(begin); u < end; ++u) {
         const NodeGrid::Cell cell = grid.cell_of(positions[u]);
         for (int ring = 0;; ++ring) {
-          grid.visit_ring(cell, ring, [&](std::uint32_t v) {
+          grid.visit_ring(cell, ring, [](int, int) { return false; }, [&](std::uint32_t v) {
             const Vec3 way = positions[v] - positions[u];
             if (v != u && glm::dot(way, way) <= longest * longest && rules.allow(u, v)) visit(u, v);
           });
@@ -159,7 +189,7 @@ void require(bool holds, const char* key, double value, const char* expected) {
 }  // namespace
 
 double longest_yao_edge(std::span<const Vec3> positions, double spacing, int sectors) {
-  return kYaoReach * std::cbrt(sectors) * std::max(spacing, NodeGrid(positions, 2 * spacing).natural_spacing());
+  return kYaoReach * std::cbrt(sectors) * std::max(spacing, NodeGrid(positions, kGridSide * spacing).natural_spacing());
 }
 
 std::optional<NodeGraph> join_nodes(std::span<const Vec3> positions, double spacing, std::span<const std::uint16_t> parts,
@@ -169,7 +199,7 @@ std::optional<NodeGraph> join_nodes(std::span<const Vec3> positions, double spac
   const JoinRules rules{positions, parts, obstacles};
   std::optional<NodeGraph> graph;
   {
-    const NodeGrid grid(positions, 2 * spacing);
+    const NodeGrid grid(positions, kGridSide * spacing);
     if (options.rule == EdgeRule::kThreshold) {
       graph = near_pairs(positions, grid, rules, options.threshold * spacing, run);
     } else {

@@ -29,7 +29,7 @@ NodeGrid::NodeGrid(std::span<const Vec3> positions, double side) {
     first_.assign(std::size_t(size_[0]) * std::size_t(size_[1]) * std::size_t(size_[2]) + 1, 0);
     for (const Vec3& p : positions) ++first_[index(cell_of(p)) + 1];
     filled_ = first_.size() - 1 - static_cast<std::size_t>(std::count(first_.begin() + 1, first_.end(), 0u));
-    if (2 * filled_ <= positions.size() || first_.size() == 2) break;
+    if (kFewest * static_cast<double>(filled_) <= static_cast<double>(positions.size()) || first_.size() == 2) break;
   }
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
   nodes_.resize(positions.size());
@@ -44,7 +44,7 @@ void NodeGrid::choose_side(const Box& box, std::size_t nodes, double side) {
   for (;; side *= 2) {
     double cells = 1;
     for (int k = 0; k < 3; ++k) cells *= std::floor(size[k] / side) + 1;
-    if (cells <= static_cast<double>(nodes) + 64) break;
+    if (cells <= 2 * static_cast<double>(nodes) + 64) break;
   }
   side_ = side;
   per_metre_ = 1 / side;

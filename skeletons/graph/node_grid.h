@@ -10,13 +10,14 @@
 
 namespace cambium {
 
-/// Immutable, used by threads at once. Memory: 4 bytes a node and 4 a cell; there are at most about as many cells as nodes.
+/// Immutable, used by threads at once. Memory: 4 bytes a node and 4 a cell; there are at most about twice as many cells as nodes.
 class NodeGrid {
  public:
   using Cell = std::array<int, 3>;
+  static constexpr double kFewest = 1.3;
 
-  /// Cells of `side` metres, or of twice, four times ... as much until cells with nodes in them hold two on average, and cells are not
-  /// more than nodes.
+  /// Cells of `side` metres, or of twice, four times ... as much until cells with nodes in them hold kFewest on average, and cells are
+  /// not more than twice the nodes.
   NodeGrid(std::span<const Vec3> positions, double side);
 
   double side() const { return side_; }
@@ -28,14 +29,22 @@ class NodeGrid {
     for (int k = 0; k < 3; ++k) cell[k] = std::min(static_cast<int>((p[k] - lo_[k]) * per_metre_), size_[k] - 1);
     return cell;
   }
+  /// Metres from p, in `cell`, to the slab of cells that is that many away along an axis.
+  double distance_to(const Vec3& p, const Cell& cell, std::size_t axis, int away) const {
+    if (away == 0) return 0;
+    const double below = p[int(axis)] - (lo_[int(axis)] + side_ * cell[axis]);
+    return away > 0 ? away * side_ - below : below - (away + 1) * side_;
+  }
   /// Metres from p, in `cell`, to what is beyond the cells around it that are `rings` away; kInfinity if that is all of them.
   double clearance(const Vec3& p, const Cell& cell, int rings) const;
 
-  /// Calls visit(node) for the nodes in the cells that are `ring` cells away, the cell itself in ring 0; in no particular order.
-  template <class Visit>
-  void visit_ring(const Cell& cell, int ring, Visit&& visit) const {
+  /// Calls visit(node) for the nodes in the cells that are `ring` cells away, the cell itself in ring 0; in no particular order. Leaves
+  /// out rows of cells along x where skips(dy, dz) is true; they are so many cells away from the cell's own row.
+  template <class Skips, class Visit>
+  void visit_ring(const Cell& cell, int ring, const Skips& skips, Visit&& visit) const {
     for (int z = std::max(cell[2] - ring, 0); z <= std::min(cell[2] + ring, size_[2] - 1); ++z)
       for (int y = std::max(cell[1] - ring, 0); y <= std::min(cell[1] + ring, size_[1] - 1); ++y) {
+        if (skips(y - cell[1], z - cell[2])) continue;
         const bool whole_row = std::abs(z - cell[2]) == ring || std::abs(y - cell[1]) == ring;
         if (whole_row) {
           visit_row(cell[0] - ring, cell[0] + ring, y, z, visit);

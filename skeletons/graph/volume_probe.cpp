@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kFewInside = 128;                       // then a look at eight times as many
 constexpr std::size_t kMostSamples = std::size_t{1} << 18;
 constexpr std::size_t kLeastOfSolid = 64;                     // samples
-constexpr std::size_t kBallSamples = 512;
+constexpr std::size_t kBallSamples = 256;
 constexpr double kSamplesInCell = 4;                          // on average, of cells with any
 
 double volume_of(const Box& box) {
@@ -26,6 +26,14 @@ Vec3 place_in_ball(std::size_t i) {
   const Vec3 u = spread_place(i);
   const double z = 2 * u.x - 1, turn = 2 * std::numbers::pi * u.y, across = std::sqrt(1 - z * z);
   return std::cbrt(u.z) * Vec3{across * std::cos(turn), across * std::sin(turn), z};
+}
+const std::array<Vec3, kBallSamples>& places_in_ball() {
+  static const std::array<Vec3, kBallSamples> places = [] {
+    std::array<Vec3, kBallSamples> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = place_in_ball(i);
+    return all;
+  }();
+  return places;
 }
 
 }  // namespace
@@ -91,8 +99,9 @@ VolumeProbe::Cell VolumeProbe::cell_of(const Vec3& p) const {
 
 double VolumeProbe::share_of_ball(double radius) const {
   const std::size_t count = std::min(kBallSamples, inside_.size());
+  const auto& places = places_in_ball();
   std::size_t inside = 1;
-  for (std::size_t i = 0; i < count; ++i) inside += of_.contains(inside_[i * inside_.size() / count] + radius * place_in_ball(i));
+  for (std::size_t i = 0; i < count; ++i) inside += of_.contains(inside_[i * inside_.size() / count] + radius * places[i]);
   return static_cast<double>(inside) / static_cast<double>(count + 1);
 }
 
