@@ -39,20 +39,21 @@ GroupRows rows_of(const std::array<GroupBits, 27>& around) {
 
 }  // namespace
 
-GroupBits groups_inside(const GraphVolume& volume, const DartLattice& lattice, const std::array<int, 3>& cube, int tries) {
+GroupBits groups_inside(const GraphVolume& volume, const DartLattice& lattice, const std::array<int, 3>& cube) {
   GroupBits groups = 0;
   const Vec3 corner = lattice.corner(cube);
   for (unsigned i = 0; i < 64; ++i) {
     const Vec3 lo = corner + lattice.group_side() * Vec3(i % kGroups, i / kGroups % kGroups, i / (kGroups * kGroups));
     const Vec3 size = glm::min(lo + lattice.group_side(), lattice.hi) - lo;
     if (size.x < 0 || size.y < 0 || size.z < 0) continue;
-    for (std::uint64_t k = 0; k < std::uint64_t(tries); ++k)
-      if (volume.contains(lo + size * unit_place(hash_of(i, k)))) {
-        groups |= GroupBits{1} << i;
-        break;
-      }
+    if (volume.contains(lo + size * unit_place(mix_bits(i)))) groups |= GroupBits{1} << i;
   }
   return groups;
+}
+
+GroupBits group_of(const DartLattice& lattice, const std::array<int, 3>& cube, const Vec3& p) {
+  const Vec3 at = glm::clamp(glm::floor((p - lattice.corner(cube)) / lattice.group_side()), 0.0, kGroups - 1.0);
+  return GroupBits{1} << static_cast<int>((at.z * kGroups + at.y) * kGroups + at.x);
 }
 
 GroupBits grown(const std::array<GroupBits, 27>& around) {
@@ -71,8 +72,8 @@ GroupBits grown(const std::array<GroupBits, 27>& around) {
 DartLattice::DartLattice(const Box& bounds, double least)
     : lo(bounds.lo), hi(bounds.hi), spacing(least), cell(least / std::numbers::sqrt3 * (1 - 1e-9)) {}
 
-DartBlock::DartBlock(const GraphVolume& volume, const DartLattice& lattice, int misses, int halvings)
-    : volume_(volume), lattice_(lattice), misses_(misses), halvings_(halvings) {}
+DartBlock::DartBlock(const GraphVolume& volume, const DartLattice& lattice, int halvings)
+    : volume_(volume), lattice_(lattice), halvings_(halvings) {}
 
 void DartBlock::open(const std::array<int, 3>& cube) {
   corner_ = lattice_.corner(cube);
@@ -142,7 +143,7 @@ bool DartBlock::throw_at(Place& place, int level, std::vector<Vec3>& nodes) {
 }
 
 /// Leaves places that took no node, and of which something may be inside.
-void DartBlock::throw_at_all(int level, int darts, std::vector<Vec3>& nodes) {
+void DartBlock::throw_at_all(int level, int darts, int misses, std::vector<Vec3>& nodes) {
   std::vector<Place> done;
   while (!places_.empty()) {
     std::size_t kept = 0;
@@ -151,7 +152,7 @@ void DartBlock::throw_at_all(int level, int darts, std::vector<Vec3>& nodes) {
       if (throw_at(place, level, nodes)) continue;
       if (place.darts - place.outside >= darts)
         done.push_back(place);
-      else if (place.outside < (level == 0 ? misses_ : 1))
+      else if (place.outside < misses)
         places_[kept++] = place;
     }
     places_.resize(kept);
@@ -199,14 +200,14 @@ void DartBlock::find_places(GroupBits groups) {
   }
 }
 
-void DartBlock::fill(std::uint64_t seed, GroupBits groups, std::vector<Vec3>& nodes) {
+void DartBlock::fill(std::uint64_t seed, GroupBits groups, int misses, std::vector<Vec3>& nodes) {
   seed_ = seed;
   drawn_ = 0;
   find_places(groups);
-  throw_at_all(0, kDarts, nodes);
+  throw_at_all(0, kDarts, misses, nodes);
   for (int level = 1; level <= halvings_; ++level) {
     halve_all(level - 1);
-    throw_at_all(level, kDartsAtHalf, nodes);
+    throw_at_all(level, kDartsAtHalf, misses / 2, nodes);
   }
 }
 

@@ -31,8 +31,11 @@ struct DartLattice {
 using GroupBits = std::uint64_t;
 static_assert(DartLattice::kGroups * DartLattice::kGroups * DartLattice::kGroups == 64);
 
-/// Looks at `tries` places in each group, until one is inside.
-GroupBits groups_inside(const GraphVolume& volume, const DartLattice& lattice, const std::array<int, 3>& cube, int tries);
+/// Looks at one place in each group.
+GroupBits groups_inside(const GraphVolume& volume, const DartLattice& lattice, const std::array<int, 3>& cube);
+
+/// The group that p, in the cube or at its surface, is in.
+GroupBits group_of(const DartLattice& lattice, const std::array<int, 3>& cube, const Vec3& p);
 
 /// The groups of a cube beside one that is set, or set themselves; from those of the 27 cubes around it, x fastest.
 GroupBits grown(const std::array<GroupBits, 27>& around);
@@ -40,15 +43,15 @@ GroupBits grown(const std::array<GroupBits, 27>& around);
 /// One cube's nodes and those beside it, by cell. Made once for each thread, and used for one cube after the other.
 class DartBlock {
  public:
-  /// misses: so many darts that fall beside the volume are thrown at a cell.
-  DartBlock(const GraphVolume& volume, const DartLattice& lattice, int misses, int halvings);
+  DartBlock(const GraphVolume& volume, const DartLattice& lattice, int halvings);
 
   /// Begins with another cube.
   void open(const std::array<int, 3>& cube);
   /// Nodes that are there already, in the cube or near it; others are ignored.
   void add(std::span<const Vec3> nodes);
-  /// Appends the nodes that fit in besides, in those groups of cells. Draws from the stream `seed` alone.
-  void fill(std::uint64_t seed, GroupBits groups, std::vector<Vec3>& nodes);
+  /// Appends the nodes that fit in besides, in those groups of cells. Throws as many as `misses` darts that fall beside the volume at a
+  /// cell. Draws from the stream `seed` alone.
+  void fill(std::uint64_t seed, GroupBits groups, int misses, std::vector<Vec3>& nodes);
 
  private:
   static constexpr int kSide = DartLattice::kCells + 2 * DartLattice::kReach;
@@ -62,7 +65,7 @@ class DartBlock {
   };
 
   void find_places(GroupBits groups);
-  void throw_at_all(int level, int darts, std::vector<Vec3>& nodes);
+  void throw_at_all(int level, int darts, int misses, std::vector<Vec3>& nodes);
   bool throw_at(Place& place, int level, std::vector<Vec3>& nodes);
   void halve_all(int level);
   bool covers(std::uint16_t node, const Vec3& middle, double half_side) const;
@@ -75,7 +78,7 @@ class DartBlock {
 
   const GraphVolume& volume_;
   const DartLattice& lattice_;
-  int misses_, halvings_;
+  int halvings_;
   Vec3 corner_{0.0};
   std::uint64_t seed_ = 0, drawn_ = 0;
   std::array<std::uint16_t, kSide * kSide> rows_{};      // a bit for each cell along x that has nodes

@@ -7,6 +7,7 @@
 #include "skeletons/graph/volume_probe.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -55,11 +56,10 @@ class NodeCubes {
   /// False if cancelled.
   bool fill(std::uint64_t seed, int halvings, const RunOptions& run) {
     if (!find_groups(run)) return false;
-    const int misses = std::clamp(static_cast<int>(std::ceil(1 / probe_.fullness())), 2, 64);
     for (int phase = 0; phase < 8; ++phase) {
       const std::vector<std::uint32_t> cubes = of_phase(phase);
       const bool finished = in_node_chunks(cubes.size(), grain(), run, [&](std::size_t begin, std::size_t end) {
-        DartBlock block(volume_, lattice_, misses, halvings);
+        DartBlock block(volume_, lattice_, halvings);
         for (std::size_t i = begin; i < end && !run.cancelled(); ++i) fill(cubes_[cubes[i]], block, seed);
       });
       if (!finished) return false;
@@ -83,7 +83,8 @@ class NodeCubes {
     bool is_open;                      // may hold some of the volume
     std::vector<Vec3> nodes;
     std::size_t there = 0;             // of them
-    GroupBits groups = 0;
+    GroupBits groups = 0;              // that hold some of the volume, as far as is known
+    int hits = 0;                      // of one look at each of them
   };
 
   void find_cubes() {
@@ -124,12 +125,22 @@ class NodeCubes {
   std::size_t grain() const { return cubes_.size() <= kSerialCubes ? kSerialCubes : 8; }
 
   bool find_groups(const RunOptions& run) {
-    const int tries = std::clamp(static_cast<int>(std::ceil(0.3 / probe_.fullness())), 1, 16);
+    for (const Vec3& p : probe_.inside()) {
+      Filled& cube = at(cube_of(p));
+      cube.groups |= group_of(lattice_, cube.at, p);
+    }
     return in_node_chunks(cubes_.size(), grain(), run, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (cubes_[i].is_open) cubes_[i].groups = groups_inside(volume_, lattice_, cubes_[i].at, tries);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!cubes_[i].is_open) continue;
+        const GroupBits found = groups_inside(volume_, lattice_, cubes_[i].at);
+        cubes_[i].hits = std::popcount(found);
+        cubes_[i].groups |= found;
+      }
     });
   }
+
+  /// The fewer looks at groups hit the volume, the more darts may miss it.
+  static int misses(int hits, GroupBits groups) { return std::clamp(std::popcount(groups) / (4 * hits + 2), 2, 64); }
 
   /// Of the cube and those around it, x fastest; null where there are none.
   std::array<const Filled*, 27> around(const Cube& c) const {
@@ -164,7 +175,7 @@ class NodeCubes {
     for (const Filled* other : cubes)
       if (other) block.add(other->nodes);
     std::vector<Vec3> found;
-    block.fill(hash_of(seed, morton(cube.at)), groups, found);
+    block.fill(hash_of(seed, morton(cube.at)), groups, misses(cube.hits, groups), found);
     cube.nodes.insert(cube.nodes.end(), found.begin(), found.end());
   }
 

@@ -86,7 +86,6 @@ void VolumeProbe::mark_cells() {
       marked_[index(x, y, z)] = 1;
     }
     const auto marked = static_cast<double>(std::count(marked_.begin(), marked_.end(), 1));
-    fullness_ = std::min(1.0, volume_ / (marked * side_ * side_ * side_));
     if (marked * kSamplesInCell <= static_cast<double>(inside_.size()) || marked_.size() == 1) break;
   }
 }

@@ -20,8 +20,7 @@ class VolumeProbe {
   double volume() const { return volume_; }   ///< cubic metres
   /// Of a ball of that radius around a place in the volume, how much is inside, on average. (0, 1]
   double share_of_ball(double radius) const;
-  /// How much of what may_hold() is inside; small where the volume is thin. (0, 1]
-  double fullness() const { return fullness_; }
+  const std::vector<Vec3>& inside() const { return inside_; }   ///< those of the places
   /// Whether some of the volume may be in the box: false only where there is none, as far as the samples tell.
   bool may_hold(const Box& box) const;
 
@@ -37,7 +36,7 @@ class VolumeProbe {
 
   const GraphVolume& of_;
   std::vector<Vec3> inside_;
-  double volume_ = 0, fullness_ = 1;
+  double volume_ = 0;
   double side_ = 1;                   // of the cells that the bounds are divided into
   Cell size_{1, 1, 1};
   std::vector<std::uint8_t> marked_;  // whether one of the samples is in the cell

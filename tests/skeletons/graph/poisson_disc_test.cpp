@@ -115,7 +115,7 @@ TEST(PoissonDisc, NodesAreTheSameAtAnyThreadCountAndOthersWithAnotherSeed) {
 TEST(PoissonDisc, AVolumeThinnerThanTheSpacingIsFilledAlongItsLength) {
   const GraphVolume rod({PlacedSolid{.solid = CylinderSolid{0.01, 5}, .axis = {1, 2, 3}}});
   const auto along_rod = strewn(rod, {.spacing = 0.1}).positions.size();
-  EXPECT_GT(along_rod, 30u);   // 37 is what random parking leaves
+  EXPECT_GT(along_rod, 27u);   // 37 is what random parking leaves when it goes on for ever
   EXPECT_LT(along_rod, 51u);
   EXPECT_EQ(strewn(rod, {.count = 200}).positions.size(), 200u);
   const GraphVolume sheet({PlacedSolid{.solid = CylinderSolid{1, 0.002}, .axis = {1, 2, 3}}});
