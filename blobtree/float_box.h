@@ -1,4 +1,4 @@
-// A box kept in half the memory: floats rounded outwards. Not installed.
+// A box kept in half the memory: floats rounded outwards.
 #pragma once
 
 #include "blobtree/geometry.h"

@@ -8,7 +8,7 @@ set(public_headers
   blobtree/surface_cover.h
   skeletons/foliage.h skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
   skeletons/graph/closed_mesh.h skeletons/graph/edge_weights.h skeletons/graph/graph_volume.h skeletons/graph/node_graph.h
-  skeletons/graph/plan.h skeletons/graph/prepared_solid.h skeletons/graph/settled_cells.h skeletons/graph/solids.h
+  skeletons/graph/plan.h skeletons/graph/prepared_solid.h skeletons/graph/refinement.h skeletons/graph/settled_cells.h skeletons/graph/solids.h
   skeletons/graph/svg_path.h
   lsystem/dialect.h lsystem/growth.h lsystem/growth_parts.h lsystem/lsystem.h
   polygonize/ambient_occlusion.h polygonize/decimate.h polygonize/mesh.h polygonize/mesh_attributes.h polygonize/mesh_io.h

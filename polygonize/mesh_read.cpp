@@ -21,9 +21,12 @@ std::string quoted(std::string_view text) { return text.empty() ? "the end" : "'
 enum class Number { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
 std::optional<Number> number_type(std::string_view name) {
-  constexpr struct { std::string_view name, other; Number type; } kTypes[] = {
-      {"char", "int8", Number::kInt8},     {"uchar", "uint8", Number::kUint8}, {"short", "int16", Number::kInt16},     {"ushort", "uint16", Number::kUint16},
-      {"int", "int32", Number::kInt32},    {"uint", "uint32", Number::kUint32}, {"float", "float32", Number::kFloat32}, {"double", "float64", Number::kFloat64}};
+  constexpr struct {
+    std::string_view name, other;
+    Number type;
+  } kTypes[] = {{"char", "int8", Number::kInt8},       {"uchar", "uint8", Number::kUint8},  {"short", "int16", Number::kInt16},
+                {"ushort", "uint16", Number::kUint16}, {"int", "int32", Number::kInt32},    {"uint", "uint32", Number::kUint32},
+                {"float", "float32", Number::kFloat32}, {"double", "float64", Number::kFloat64}};
   for (const auto& known : kTypes)
     if (name == known.name || name == known.other) return known.type;
   return std::nullopt;
@@ -197,27 +200,30 @@ class PlyReader {
     element.properties.push_back(property);
   }
 
+  static bool is_corners(const Property& property) {
+    return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+  }
+
   /// That vertices have places and faces corners, and that all rows take bytes.
   void require_mesh() {
-    bool vertices = false, faces = false;
-    for (const Element& element : elements_) {
-      if (element.properties.empty() && element.rows > 0) throw InputError({file_}, "element " + quoted(element.name) + " without properties", "at least one");
-      if (element.name == "vertex") {
-        if (vertices) throw InputError({file_}, "two elements of vertices", "one");
-        vertices = true;
-        vertex_count_ = element.rows;
-        for (const char* axis : {"x", "y", "z"}) {
-          const Property* property = element.find(axis);
-          if (!property || property->count) throw InputError({file_}, "vertices without a property " + std::string(axis), "x, y and z");
-        }
-      }
-      if (element.name == "face") {
-        const Property* corners = element.find("vertex_indices") ? element.find("vertex_indices") : element.find("vertex_index");
-        if (!corners || !corners->count) throw InputError({file_}, "faces without a list vertex_indices", "their corners");
-        faces = true;
-      }
+    for (const Element& element : elements_)
+      if (element.properties.empty() && element.rows > 0)
+        throw InputError({file_}, "element " + quoted(element.name) + " without properties", "at least one");
+    const Element &vertices = only_element("vertex"), &faces = only_element("face");
+    vertex_count_ = vertices.rows;
+    for (const char* axis : {"x", "y", "z"}) {
+      const Property* property = vertices.find(axis);
+      if (!property || property->count) throw InputError({file_}, "vertices without a property " + std::string(axis), "x, y and z");
     }
-    if (!vertices || !faces) throw InputError({file_}, std::string("no element ") + (vertices ? "face" : "vertex"), "elements vertex and face");
+    if (std::none_of(faces.properties.begin(), faces.properties.end(), is_corners))
+      throw InputError({file_}, "faces without a list vertex_indices", "their corners");
+  }
+
+  const Element& only_element(const std::string& name) const {
+    const auto named = [&](const Element& element) { return element.name == name; };
+    if (std::count_if(elements_.begin(), elements_.end(), named) != 1)
+      throw InputError({file_}, "no element " + name + ", or more than one", "one");
+    return *std::find_if(elements_.begin(), elements_.end(), named);
   }
 
   void read_row(const Element& element) {
@@ -225,8 +231,7 @@ class PlyReader {
     if (is_vertex) mesh_.positions.emplace_back(0.0);
     for (const Property& property : element.properties) {
       if (property.count) {
-        const bool corners = is_face && (property.name == "vertex_indices" || property.name == "vertex_index");
-        read_list(property, corners);
+        read_list(property, is_face && is_corners(property));
         continue;
       }
       const double value = bytes_.number(property.type);
@@ -245,7 +250,8 @@ class PlyReader {
       const double value = bytes_.number(property.type);
       if (!corners) continue;
       if (!(value >= 0 && value < static_cast<double>(vertex_count_) && value == std::floor(value)))
-        bytes_.refuse("corner " + std::to_string(value), "one of the " + std::to_string(vertex_count_) + " vertices, counted from 0");
+        bytes_.refuse("corner " + std::to_string(value),
+                      "one of the " + std::to_string(vertex_count_) + " vertices, counted from 0");
       const auto corner = static_cast<std::uint32_t>(value);
       if (i == 0) first = corner;
       if (i >= 2) mesh_.triangles.push_back({first, last, corner});

@@ -108,12 +108,12 @@ double GraphVolume::depth(const Vec3& p) const {
 
 std::uint16_t GraphVolume::part_of(const Vec3& p) const {
   if (parts_ == 1) return 0;
-  double deepest = -1;
+  double most = -1;
   std::uint16_t part = 0;
   for (std::size_t i = 0; i < solids_.size(); ++i) {
     if (!frames_[i].contains(p)) continue;
-    const double d = frames_[i].depth(p);
-    if (d > deepest) deepest = d, part = solids_[i].part;
+    const double middleness = frames_[i].middleness(p);
+    if (middleness > most) most = middleness, part = solids_[i].part;
   }
   return part;
 }

@@ -22,6 +22,7 @@ class SolidFrame {
 
   bool contains(const Vec3& p) const { return world_.contains(p) && solid_.contains(local(p)); }
   double depth(const Vec3& p) const { return scale_ * solid_.depth(local(p)); }      ///< metres; p is in it
+  double middleness(const Vec3& p) const { return solid_.middleness(local(p)); }     ///< as PreparedSolid::middleness
   bool meets(const Vec3& a, const Vec3& b) const;                                    ///< as PreparedSolid::meets
 
  private:
@@ -70,7 +71,8 @@ class GraphVolume {
   /// Of a place that bears endpoints: metres to the surface of the union of what bears them; at least that far where solids overlap
   /// it is the deepest of them.
   double depth(const Vec3& p) const;
-  /// The subvolume that p is in; where several overlap, the one whose solid p is deepest in.
+  /// The subvolume that p is in; where several overlap, the one whose solid p is most in the middle of, so that none of two cones that
+  /// run into each other, or of a cone and the ball in its way, is cut through.
   std::uint16_t part_of(const Vec3& p) const;
   /// Cubic metres, by 2^18 places spread evenly: to about 0.5 % where the bounds are a quarter full.
   double volume() const;

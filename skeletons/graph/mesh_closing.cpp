@@ -126,7 +126,8 @@ std::string text_of(const Vec3& p) { return "(" + std::to_string(p.x) + ", " + s
 class Turning {
  public:
   Turning(std::vector<Corners>& triangles, const std::vector<Side>& sides, const std::vector<Edge>& edges)
-      : triangles_(triangles), around_(triangles.size()), turned_(triangles.size(), 0), seen_(triangles.size(), 0), filled_(triangles.size(), 0) {
+      : triangles_(triangles), around_(triangles.size()), turned_(triangles.size(), 0), seen_(triangles.size(), 0),
+        filled_(triangles.size(), 0) {
     for (const Edge& edge : edges) link(sides[edge.begin], sides[edge.begin + 1]);
   }
 

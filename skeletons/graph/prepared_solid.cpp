@@ -72,8 +72,13 @@ struct PreparedSolid::Prepare {
     const double slope = (s.radius_tip - s.radius_base) / s.height;
     return Cone{s.radius_base, slope, s.height, std::sqrt(1 + slope * slope), s.radius_base > 0, s.radius_tip > 0};
   }
-  Shape operator()(const RevolutionSolid& s) const { return Revolution{std::make_shared<const RevolvedStroke>(s.stroke)}; }
-  Shape operator()(const MeshSolid& s) const { return Mesh{s.mesh}; }
+  Shape operator()(const RevolutionSolid& s) const { return Revolution{std::make_shared<const RevolvedStroke>(s.stroke), half_size(s)}; }
+  Shape operator()(const MeshSolid& s) const { return Mesh{s.mesh, half_size(s)}; }
+
+  static double half_size(const Solid& solid) {
+    const Vec3 size = bounds(solid).size();
+    return 0.5 * std::min({size.x, size.y, size.z});
+  }
 };
 
 PreparedSolid::PreparedSolid(const Solid& solid) : shape_(std::visit(Prepare{}, solid)) {}
@@ -113,6 +118,23 @@ struct PreparedSolid::Depth {
 };
 
 double PreparedSolid::depth(const Vec3& p) const { return std::visit(Depth{p}, shape_); }
+
+struct PreparedSolid::Middleness {
+  const Vec3& p;
+
+  double operator()(const Ball& s) const { return 1 - glm::length(p) / s.radius; }
+  double operator()(const BallPart& s) const { return 1 - glm::length(p) / s.radius; }
+  double operator()(const Ellipsoid& s) const { return 1 - glm::length(p / s.half_size); }
+  double operator()(const Cylinder& s) const { return 1 - std::sqrt(across2(p)) / s.radius; }
+  double operator()(const Cone& s) const {
+    const double radius = s.radius + s.slope * p.z;
+    return radius > 0 ? 1 - std::sqrt(across2(p)) / radius : 1.0;
+  }
+  double operator()(const Revolution& s) const { return s.stroke->depth(p) / s.half_size; }
+  double operator()(const Mesh& s) const { return s.mesh->depth(p) / s.half_size; }
+};
+
+double PreparedSolid::middleness(const Vec3& p) const { return std::visit(Middleness{p}, shape_); }
 
 struct PreparedSolid::Meets {
   const Vec3 &a, &b;

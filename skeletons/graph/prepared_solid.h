@@ -22,6 +22,9 @@ class PreparedSolid {
   /// Metres from p, inside, to the surface; of a ball's part to the ball. Not more than the distance where that has no closed form
   /// (ellipsoid).
   double depth(const Vec3& p) const;
+  /// How near p, inside, is to the solid's middle: 0 on the surface, 1 in the center of a ball or an ellipsoid and on the axis of a cylinder
+  /// or a cone; of the others the depth, in half the least side of their bounds.
+  double middleness(const Vec3& p) const;
   /// Whether the straight line from a to b has a point in it: exact, to rounding, of every solid.
   bool meets(const Vec3& a, const Vec3& b) const;
 
@@ -31,13 +34,14 @@ class PreparedSolid {
   struct Ellipsoid { Vec3 half_size; double least; };
   struct Cylinder { double radius, height; };
   struct Cone { double radius, slope, height, steepness; bool has_base, has_tip; };
-  struct Revolution { std::shared_ptr<const RevolvedStroke> stroke; };
-  struct Mesh { std::shared_ptr<const ClosedMesh> mesh; };
+  struct Revolution { std::shared_ptr<const RevolvedStroke> stroke; double half_size; };
+  struct Mesh { std::shared_ptr<const ClosedMesh> mesh; double half_size; };
   using Shape = std::variant<Ball, BallPart, Ellipsoid, Cylinder, Cone, Revolution, Mesh>;
 
   struct Prepare;
   struct Contains;
   struct Depth;
+  struct Middleness;
   struct Meets;
 
   Shape shape_;

@@ -23,7 +23,8 @@ void check(const GraphRefinement& refinement) {
   if (!(refinement.radius > 0 && refinement.radius <= 2))
     throw InputError({}, "radius = " + std::to_string(refinement.radius), "a radius above 0, at most 2, in distances between spheres");
   if (!(refinement.cone_radius > 0 && refinement.cone_radius <= 1))
-    throw InputError({}, "cone_radius = " + std::to_string(refinement.cone_radius), "a cone_radius above 0, at most 1, in radii of a sphere");
+    throw InputError({}, "cone_radius = " + std::to_string(refinement.cone_radius),
+                     "a cone_radius above 0, at most 1, in radii of a sphere");
 }
 
 Spine spine_of(const PlacedSolid& trunk, const Vec3& root) {
@@ -71,7 +72,8 @@ std::optional<PlacedSolid> connector(const PlacedSolid& sphere, double radius, c
   const Vec3 way = sphere.origin - foot;
   const double height = glm::length(way) - std::sqrt(std::max(radius * radius - wide * wide, 0.0));
   if (!(height > 1e-6 * radius)) return std::nullopt;
-  return PlacedSolid{.solid = ConeSolid{kNarrowEnd * wide, wide, height}, .origin = foot, .axis = way, .endpoints = false, .part = sphere.part};
+  const ConeSolid cone{kNarrowEnd * wide, wide, height};
+  return PlacedSolid{.solid = cone, .origin = foot, .axis = way, .endpoints = false, .part = sphere.part};
 }
 
 }  // namespace

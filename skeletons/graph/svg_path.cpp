@@ -162,6 +162,8 @@ Point at(const Curve& c, double t) {
   return s * s * s * c[0] + 3 * s * s * t * c[1] + 3 * s * t * t * c[2] + t * t * t * c[3];
 }
 
+std::string text_of(const Point& p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
+
 struct Range {
   double low = kInfinity, high = -kInfinity;
   void extend(double v) { low = std::min(low, v), high = std::max(high, v); }
@@ -189,7 +191,8 @@ class StrokeMaker {
     std::vector<Point> points = {curves.front()[0]};
     for (const Curve& curve : curves) {
       const double lines = lines_of(curve, options_.tolerance * size);
-      if (!(static_cast<double>(points.size()) + lines <= kMost)) refuse("a stroke of more than 65536 points", "fewer, or a larger tolerance");
+      if (!(static_cast<double>(points.size()) + lines <= kMost))
+        refuse("a stroke of more than 65536 points", "fewer, or a larger tolerance");
       for (int i = 1; i <= static_cast<int>(lines); ++i) {
         const Point p = i < lines ? at(curve, i / lines) : curve[3];
         if (glm::length(p - points.back()) > apart) points.push_back(p);
@@ -209,8 +212,7 @@ class StrokeMaker {
       double distance = side * (p.x - axis);
       if (std::abs(distance) <= 1e-9 * y.size()) distance = 0;
       if (distance < 0)
-        refuse("a stroke that crosses its axis x = " + std::to_string(axis) + " at (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")",
-               "all of it on one side");
+        refuse("a stroke that crosses its axis x = " + std::to_string(axis) + " at " + text_of(p), "all of it on one side");
       p = {scale * distance, scale * (y.high - p.y)};
     }
     return points;

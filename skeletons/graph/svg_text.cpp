@@ -84,7 +84,8 @@ struct Element {
 
 class PathFinder {
  public:
-  PathFinder(std::string_view text, const std::string& file, const std::string& id) : text_(text), file_(file), id_(id), cursor_(text, file) {}
+  PathFinder(std::string_view text, const std::string& file, const std::string& id)
+      : text_(text), file_(file), id_(id), cursor_(text, file) {}
 
   SvgPathPlace find() {
     while (true) {

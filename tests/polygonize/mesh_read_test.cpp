@@ -22,8 +22,9 @@ void append(std::string& bytes, T value) { bytes.append(reinterpret_cast<const c
 /// The same mesh as kHeader's, in binary, with properties that are read over.
 std::string binary_ply() {
   std::string bytes =
-      "ply\r\nformat binary_little_endian 1.0\r\nobj_info x\r\nelement vertex 4\r\nproperty uchar red\r\nproperty float64 x\r\nproperty float32 y\r\n"
-      "property int16 z\r\nproperty list uchar float weights\r\nelement edge 1\r\nproperty int v\r\nelement face 1\r\nproperty uint mark\r\n"
+      "ply\r\nformat binary_little_endian 1.0\r\nobj_info x\r\nelement vertex 4\r\nproperty uchar red\r\nproperty float64 x\r\n"
+      "property float32 y\r\nproperty int16 z\r\nproperty list uchar float weights\r\nelement edge 1\r\nproperty int v\r\n"
+      "element face 1\r\nproperty uint mark\r\n"
       "property list uint8 uint32 vertex_index\r\nend_header\r\n";
   for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 2), Vec3(0, 1, 0)}) {
     append<std::uint8_t>(bytes, 255), append<double>(bytes, p.x), append<float>(bytes, static_cast<float>(p.y));
@@ -99,7 +100,7 @@ TEST(MeshRead, RefusesMalformedTextNamingLineAndColumn) {
   expect_refused(format + "end_header\n", 0, 0, "no element vertex");
   expect_refused(format + vertex + "end_header\n", 0, 0, "no element face");
   expect_refused(format + face + "end_header\n", 0, 0, "no element vertex");
-  expect_refused(format + vertex + vertex + face + "end_header\n", 0, 0, "two elements");
+  expect_refused(format + vertex + vertex + face + "end_header\n", 0, 0, "more than one");
   expect_refused(format + "element vertex 1\nproperty float x\nproperty float y\n" + face + "end_header\n", 0, 0, "property z");
   expect_refused(format + vertex + "element face 1\nproperty int vertex_indices\nend_header\n", 0, 0, "vertex_indices");
   expect_refused(format + "element nothing 4000000000\n" + vertex + face + "end_header\n", 0, 0, "without properties");
@@ -134,7 +135,10 @@ TEST(MeshRead, NoiseIsReadOrRefusedButDoesNoHarm) {
   int refused = 0, valid = 0;
   for (int i = 0; i < 6000; ++i) {
     std::string bytes = sources[i % 2];
-    for (int k = 0; k <= i % 5 % 2; ++k) bytes[random() % bytes.size()] = static_cast<char>(i % 3 ? "0123456789 \n.-ailxyz"[random() % 20] : random() % 256);
+    for (int k = 0; k <= i % 5 % 2; ++k) {
+      char& changed = bytes[random() % bytes.size()];
+      changed = static_cast<char>(i % 3 ? "0123456789 \n.-ailxyz"[random() % 20] : random() % 256);
+    }
     try {
       const Mesh mesh = parse_mesh(bytes, "m.ply");
       for (const auto& triangle : mesh.triangles)

@@ -46,7 +46,10 @@ inline Shape ball_shape(std::uint32_t rings, std::uint32_t sides, double radius 
       const double r = radius * (1 - 0.25 * std::sin(a) * std::pow(std::sin(0.5 * bays * b), 2));
       ball.positions.push_back(center + r * Vec3{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a)});
     }
-  for (std::uint32_t j = 0; j < sides; ++j) ball.positions[j] = center + Vec3{0, 0, radius}, ball.positions[rings * sides + j] = center - Vec3{0, 0, radius};
+  for (std::uint32_t j = 0; j < sides; ++j) {
+    ball.positions[j] = center + Vec3{0, 0, radius};
+    ball.positions[rings * sides + j] = center - Vec3{0, 0, radius};
+  }
   for (std::uint32_t i = 0; i < rings; ++i)
     for (std::uint32_t j = 0; j < sides; ++j) {
       const std::uint32_t k = (j + 1) % sides, a = i * sides + j, b = (i + 1) * sides + j, c = (i + 1) * sides + k, d = i * sides + k;

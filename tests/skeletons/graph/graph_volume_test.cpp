@@ -12,7 +12,8 @@ TEST(GraphVolume, HoldsWhatOneOfItsSolidsHoldsAndNoObstacle) {
   Draws draws(1);
   const auto obstacles = std::make_shared<const Obstacles>(std::vector<PlacedSolid>{{.solid = BallSolid{0.5}, .origin = {0, 0, 2}}},
                                                            std::vector<HalfSpaceObstacle>{{{1, 0, 0}, {-2, 0, 0}}});
-  const GraphVolume volume({{.solid = CylinderSolid{0.5, 2}, .endpoints = false}, {.solid = BallSolid{1.5}, .origin = {0, 0, 2}}}, obstacles);
+  const PlacedSolid stem{.solid = CylinderSolid{0.5, 2}, .endpoints = false}, ball{.solid = BallSolid{1.5}, .origin = {0, 0, 2}};
+  const GraphVolume volume({stem, ball}, obstacles);
   for (int i = 0; i < 5000; ++i) {
     const Vec3 p = draws.point({Vec3(-2, -2, -1), Vec3(2, 2, 4)});
     const double across = std::hypot(p.x, p.y), from_crown = glm::length(p - Vec3{0, 0, 2});
@@ -25,7 +26,8 @@ TEST(GraphVolume, HoldsWhatOneOfItsSolidsHoldsAndNoObstacle) {
 
 TEST(GraphVolume, SolidsAreTurnedScaledAndMovedAlsoUpsideDown) {
   Draws draws(2);
-  for (const Vec3& axis : {Vec3{0, 0, 1}, Vec3{0, 0, -3}, Vec3{1e-9, 0, -1}, Vec3{3e-6, -1e-6, -1}, Vec3{1, 2, 2}, Vec3{-2, 0.1, -4}}) {
+  const Vec3 axes[] = {{0, 0, 1}, {0, 0, -3}, {1e-9, 0, -1}, {3e-6, -1e-6, -1}, {1, 2, 2}, {-2, 0.1, -4}};
+  for (const Vec3& axis : axes) {
     const SolidFrame frame(PlacedSolid{.solid = ConeSolid{1, 0, 3}, .origin = {5, 6, 7}, .axis = axis, .scale = 2});
     const Vec3 up = glm::normalize(axis);
     for (int i = 0; i < 500; ++i) {
@@ -39,14 +41,26 @@ TEST(GraphVolume, SolidsAreTurnedScaledAndMovedAlsoUpsideDown) {
   }
 }
 
-TEST(GraphVolume, APlaceIsOfThePartWhoseSolidItIsDeepestIn) {
-  const GraphVolume volume({{.solid = BallSolid{1}, .part = 1}, {.solid = BallSolid{2}, .origin = {2, 0, 0}, .part = 2}, {.solid = CylinderSolid{0.1, 0.2}, .scale = 30}});
+TEST(GraphVolume, APlaceIsOfThePartWhoseSolidItIsMostInTheMiddleOf) {
+  const GraphVolume volume({{.solid = BallSolid{1}, .part = 1},
+                            {.solid = BallSolid{2}, .origin = {2, 0, 0}, .part = 2},
+                            {.solid = CylinderSolid{0.01, 0.2}, .origin = {0, 0, -3}, .scale = 30}});
   EXPECT_EQ(volume.parts(), 3u);
   EXPECT_EQ(volume.part_of({-0.8, 0, -0.1}), 1);
-  EXPECT_EQ(volume.part_of({0.45, 0, -0.1}), 1) << "0.54 below the one, 0.45 below the other";
-  EXPECT_EQ(volume.part_of({0.55, 0, -0.1}), 2);
-  EXPECT_EQ(volume.part_of({-0.01, 0, 3}), 0);
-  EXPECT_EQ(volume.part_of({-0.01, 0, 0.8}), 0) << "0.8 below the lid and the base of the trunk";
+  EXPECT_EQ(volume.part_of({0.65, 0, -0.1}), 1) << "0.66 of its radius from one center, 0.68 from the other";
+  EXPECT_EQ(volume.part_of({0.69, 0, -0.1}), 2);
+  EXPECT_EQ(volume.part_of({-0.01, 0, 2}), 0);
+  EXPECT_EQ(volume.part_of({-0.01, 0, 0.8}), 0) << "nearly on the axis, and a fifth of the radius below the sphere's surface";
+  EXPECT_EQ(volume.part_of({-0.29, 0, 0.1}), 1);
+}
+
+TEST(GraphVolume, AConeIsNotCutThroughByABallInItsWayNorByAnotherCone) {
+  const std::vector<PlacedSolid> solids = {{.solid = ConeSolid{0.1, 0.4, 9}, .endpoints = false, .part = 1},
+                                           {.solid = BallSolid{2}, .origin = {0.3, 0, 4}, .part = 2},
+                                           {.solid = ConeSolid{0.2, 0.8, 6}, .axis = {0.3, 0, 4}, .endpoints = false, .part = 2}};
+  const GraphVolume volume(solids);
+  for (int i = 1; i < 90; ++i) EXPECT_EQ(volume.part_of({0, 0, 0.1 * i}), 1) << i;
+  for (int i = 1; i < 44; ++i) EXPECT_EQ(volume.part_of({0.01 * i, 0, 0.04 / 0.3 * i}), 2) << i;
 }
 
 TEST(GraphVolume, RefusesWhatPlacesNothing) {
@@ -62,8 +76,9 @@ TEST(GraphVolume, RefusesWhatPlacesNothing) {
 }
 
 TEST(Obstacles, AreCrossedByWaysThatMeetOneOfThemHoweverThin) {
-  const Obstacles obstacles({{.solid = CylinderSolid{5, 1e-6}, .origin = {0, 0, 3}, .axis = {1, 0, 1}}, {.solid = BallSolid{0.01}, .origin = {0.3, 0.4, -2}}},
-                            {{{0, 0, 10}, {0, 0, -1}}});
+  const PlacedSolid sheet{.solid = CylinderSolid{5, 1e-6}, .origin = {0, 0, 3}, .axis = {1, 0, 1}};
+  const PlacedSolid pebble{.solid = BallSolid{0.01}, .origin = {0.3, 0.4, -2}};
+  const Obstacles obstacles({sheet, pebble}, {{{0, 0, 10}, {0, 0, -1}}});
   EXPECT_TRUE(obstacles.crossed({-1, 0, 0}, {2, 0, 5}));
   EXPECT_FALSE(obstacles.crossed({-1, 0, 0}, {-1, 1, 2}));
   EXPECT_TRUE(obstacles.crossed({0.3, 0.4, -9}, {0.305, 0.4, 0}));

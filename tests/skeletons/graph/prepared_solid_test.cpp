@@ -13,8 +13,9 @@ constexpr double kPi = std::numbers::pi;
 
 std::vector<Solid> one_of_each() {
   const testing::Shape crown = testing::ball_shape(9, 12, 1, Vec3(0), 3);
-  std::vector<Solid> solids = {EllipsoidSolid{{1, 0.5, 0.7}}, CylinderSolid{0.6, 1}, ConeSolid{1, 0, 1}, ConeSolid{0, 0.8, 1}, ConeSolid{0.3, 0.9, 0.8},
-                               RevolutionSolid{{{0, -0.5}, {1, 0}, {0.3, 0.5}, {0.4, 1}}}, MeshSolid{std::make_shared<const ClosedMesh>(crown.positions, crown.triangles)}};
+  std::vector<Solid> solids = {EllipsoidSolid{{1, 0.5, 0.7}}, CylinderSolid{0.6, 1}, ConeSolid{1, 0, 1}, ConeSolid{0, 0.8, 1},
+                               ConeSolid{0.3, 0.9, 0.8}, RevolutionSolid{{{0, -0.5}, {1, 0}, {0.3, 0.5}, {0.4, 1}}},
+                               MeshSolid{std::make_shared<const ClosedMesh>(crown.positions, crown.triangles)}};
   for (const double angle : {1.0, 0.9, 0.75, 0.5, 0.4, 0.2, 0.01}) solids.push_back(BallSolid{1, angle * kPi});
   return solids;
 }
@@ -56,6 +57,24 @@ TEST(PreparedSolid, AWayOfNoLengthMeetsWhatItsPointIsIn) {
       EXPECT_EQ(prepared.meets(p, p), prepared.contains(p)) << solid.index();
     }
   }
+}
+
+TEST(PreparedSolid, TheMiddleIsFarthestFromTheSurface) {
+  Draws draws(3);
+  for (const Solid& solid : one_of_each()) {
+    const PreparedSolid prepared(solid);
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 p = draws.point(bounds(solid));
+      if (!prepared.contains(p)) continue;
+      EXPECT_GE(prepared.middleness(p), -1e-12) << solid.index();
+      EXPECT_LE(prepared.middleness(p), 1) << solid.index();
+    }
+  }
+  EXPECT_EQ(PreparedSolid(ConeSolid{1, 0, 1}).middleness({0, 0, 0.9}), 1);
+  EXPECT_EQ(PreparedSolid(ConeSolid{1, 0, 1}).middleness({0, 0, 1}), 1);
+  EXPECT_NEAR(PreparedSolid(ConeSolid{1, 0, 1}).middleness({0.05, 0, 0.9}), 0.5, 1e-12);
+  EXPECT_NEAR(PreparedSolid(CylinderSolid{2, 9}).middleness({0, 0.5, 8.9}), 0.75, 1e-12);
+  EXPECT_NEAR(PreparedSolid(EllipsoidSolid{{1, 2, 4}}).middleness({0, 0, 1}), 0.75, 1e-12);
 }
 
 TEST(PreparedSolid, WaysThroughATipAndAlongASideMeetIt) {

@@ -104,7 +104,8 @@ TEST(Refinement, SpheresAndConesKeepOutOfObstaclesWhereTheyCan) {
 TEST(Refinement, IsTheSameForTheSameSeedAlone) {
   const auto places = [](std::uint64_t seed) {
     std::vector<double> all;
-    for (const PlacedSolid& placed : refined(mushroom(), {}, {0, 0, 0}, nullptr, seed)) all.insert(all.end(), {placed.origin.x, placed.origin.y, placed.origin.z});
+    for (const PlacedSolid& placed : refined(mushroom(), {}, {0, 0, 0}, nullptr, seed))
+      all.insert(all.end(), {placed.origin.x, placed.origin.y, placed.origin.z});
     return all;
   };
   EXPECT_EQ(places(1), places(1));

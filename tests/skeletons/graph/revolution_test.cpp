@@ -94,11 +94,13 @@ TEST(Revolution, IsAsDeepAsTheNearestPointOfItsSurfaceIsFar) {
 
 TEST(Revolution, StraightWaysMeetItWhereTheirPointsAreInIt) {
   Draws draws(4);
-  const RevolvedStroke solids[] = {RevolvedStroke(wavy(80)), RevolvedStroke(Stroke{{1, 0}, {1, 2}}), RevolvedStroke(Stroke{{0.3, 0}, {1.2, 1}, {0.1, 1}, {0, 3}})};
+  const RevolvedStroke solids[] = {RevolvedStroke(wavy(80)), RevolvedStroke(Stroke{{1, 0}, {1, 2}}),
+                                   RevolvedStroke(Stroke{{0.3, 0}, {1.2, 1}, {0.1, 1}, {0, 3}})};
+  const Box around{Vec3(-1.5, -1.5, -0.5), Vec3(1.5, 1.5, 3.5)};
   int met = 0, missed = 0;
   for (const RevolvedStroke& solid : solids)
     for (int i = 0; i < 2000; ++i) {
-      const Vec3 a = draws.point({Vec3(-1.5, -1.5, -0.5), Vec3(1.5, 1.5, 3.5)}), b = i % 3 ? draws.point({Vec3(-1.5, -1.5, -0.5), Vec3(1.5, 1.5, 3.5)}) : a + draws.in(0, 0.3) * draws.direction();
+      const Vec3 a = draws.point(around), b = i % 3 ? draws.point(around) : a + draws.in(0, 0.3) * draws.direction();
       int inside = 0;
       for (int s = 0; s <= 400; ++s) inside += solid.contains(glm::mix(a, b, s / 400.0));
       const bool meets = solid.meets(a, b);
