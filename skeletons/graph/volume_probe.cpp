@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kFewInside = 128;                       // then a look at eight times as many
 constexpr std::size_t kMostSamples = std::size_t{1} << 18;
+constexpr std::size_t kTooFewInside = 16;                     // of the most: what an obstacle left over, too little to grow in
 constexpr std::size_t kLeastOfSolid = 64;                     // samples
 constexpr std::size_t kBallSamples = 256;
 constexpr double kSamplesInCell = 4;                          // on average, of cells with any
@@ -44,6 +45,7 @@ VolumeProbe::VolumeProbe(const GraphVolume& volume, std::size_t samples) : of_(v
     sample(samples);
     if (inside_.size() >= kFewInside || samples == kMostSamples) break;
   }
+  if (inside_.size() < kTooFewInside) inside_.clear(), volume_ = 0;
   if (!empty()) mark_cells();
 }
 
@@ -86,7 +88,7 @@ void VolumeProbe::mark_cells() {
       marked_[index(x, y, z)] = 1;
     }
     const auto marked = static_cast<double>(std::count(marked_.begin(), marked_.end(), 1));
-    if (marked * kSamplesInCell <= static_cast<double>(inside_.size()) || marked_.size() == 1) break;
+    if (inside_.size() < kFewInside || marked * kSamplesInCell <= static_cast<double>(inside_.size()) || marked_.size() == 1) break;
   }
 }
 

@@ -134,6 +134,12 @@ TEST(PoissonDisc, NoRoomLeavesTheGivenNodesAlone) {
   EXPECT_EQ(strewn(ball(1), {.count = 2}, given).positions, given);
 }
 
+TEST(PoissonDisc, WhatLittleAnObstacleLeavesIsNoRoom) {
+  const auto wall = std::make_shared<Obstacles>(std::vector<PlacedSolid>{}, std::vector<HalfSpaceObstacle>{{.point = {0, 0, 0.995}}});
+  const GraphVolume sliver({PlacedSolid{.solid = BallSolid{}}}, wall);
+  EXPECT_EQ(strewn(sliver, {.count = 150}, std::vector<Vec3>{{0, 0, 1}}).positions.size(), 1u);
+}
+
 TEST(PoissonDisc, SettingsThatAskForNothingOrTooMuchAreRefused) {
   EXPECT_THROW(strewn(ball(1), {}), InputError);
   EXPECT_THROW(strewn(ball(1), {.spacing = 0.0}), InputError);
