@@ -34,9 +34,34 @@ std::optional<Plant> walk_turtle(Job& job, const ModuleString& string, const LSy
   return Plant{std::move(turtled->skeleton), std::move(turtled->foliage)};
 }
 
+Json as_json(const GraphReport& report) {
+  Json levels = Json::array();
+  for (const GraphReport::Level& level : report.levels)
+    levels.push_back({{"graphs", level.graphs}, {"nodes", level.nodes}, {"edges", level.edges}, {"endpoints", level.endpoints}});
+  return {{"nodes", report.nodes},
+          {"edges", report.edges},
+          {"endpoints", report.endpoints},
+          {"repaired", report.repaired},
+          {"short_of_nodes", report.short_of_nodes},
+          {"short_of_endpoints", report.short_of_endpoints},
+          {"levels", std::move(levels)},
+          {"notes", report.notes}};
+}
+
+std::optional<Plant> plan_plant(Job& job) {
+  const StageTimer timer(job.figures, "plan");
+  auto plan = plan_tree(*job.recipe.skeleton.graph, job.run);
+  if (!plan) return std::nullopt;
+  Json figures = as_json(plan->report);
+  if (plan->below_ground > 0) figures["nodes_of_roots"] = plan->below_ground;
+  job.figures.set("graph", std::move(figures));
+  return Plant{std::move(plan->skeleton), {}};
+}
+
 /// What the source says is there, leaves and all.
 std::optional<Plant> read_or_grow(Job& job) {
   if (job.grown) return job.grown;
+  if (job.source_kind == InputKind::kRecipe) return plan_plant(job);
   if (job.source_kind == InputKind::kSkeleton) {
     const StageTimer timer(job.figures, "read");
     return read_plant(job.source);
@@ -93,6 +118,7 @@ Job::Job(const CommandLine& command_line, const std::atomic<bool>& cancel)
     recipe.render.seed = *line.seed;
   }
   if (line.no_leaves) recipe.leaves = false;
+  if (auto& graph = recipe.skeleton.graph; graph && recipe.skeleton.seed) graph->options.seed = *recipe.skeleton.seed;
   run.threads = line.threads;
   run.cancel = &cancel;
   run.progress = [this](std::string_view stage, double fraction) { progress.show(stage, fraction); };

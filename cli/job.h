@@ -29,7 +29,7 @@ class Job {
   const CommandLine& line;
   Recipe recipe;
   std::filesystem::path source;                  ///< the file that the tree comes from: the input, or what the recipe names
-  InputKind source_kind = InputKind::kSkeleton;  ///< never kRecipe
+  InputKind source_kind = InputKind::kSkeleton;  ///< kRecipe: the recipe itself, which has a graph
   Figures figures;
   ProgressLine progress;
   RunOptions run;

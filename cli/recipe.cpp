@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include "cli/read_text.h"
+#include "cli/recipe_graph_tables.h"
 #include "cli/recipe_leaf.h"
 #include "cli/recipe_override.h"
 #include "cli/recipe_render.h"
@@ -24,8 +24,11 @@ const KeyRule<SkeletonRecipe> kSkeletonKeys[] = {
        if (s.lsystem) v.refuse("either lsystem or file, not both");
        s.file = v.file(), s.named_at = v.location();
      }},
-    {"graph", [](const RecipeValue& v,
-                 SkeletonRecipe&) { v.refuse("lsystem or file: growing on a graph is not available in this version"); }},
+    {"graph",
+     [](const RecipeValue& v, SkeletonRecipe& s) {
+       if (s.lsystem || s.file) throw InputError(v.location(), "a graph beside an lsystem or a file", "one of the three");
+       s.graph = read_graph(v), s.named_at = v.location();
+     }},
     {"label", [](const RecipeValue& v, SkeletonRecipe& s) { s.label = v.text(); }},
     {"dialect",
      [](const RecipeValue& v, SkeletonRecipe& s) {
@@ -49,7 +52,7 @@ const KeyRule<ConditioningOptions> kConditioningKeys[] = {
     {"enabled", [](const RecipeValue& v, ConditioningOptions& c) { c.enabled = v.flag(); }},
     {"smooth", [](const RecipeValue& v, ConditioningOptions& c) { c.smooth = v.number(0, 1000); }},
     {"max_turn",
-     [](const RecipeValue& v, ConditioningOptions& c) { c.max_turn = v.number(0.1, 180) * std::numbers::pi / 180; }},
+     [](const RecipeValue& v, ConditioningOptions& c) { c.max_turn = v.degrees(0.1, 180); }},
     {"min_radius", [](const RecipeValue& v, ConditioningOptions& c) { c.min_radius = v.positive_length(); }},
 };
 
@@ -64,7 +67,7 @@ void read_conditioning(const RecipeValue& v, SurfaceOptions& surface) {
 
 void read_bend(const RecipeValue& v, SurfaceOptions& surface) {
   surface.bend.clear();
-  for (const RecipeValue& order : v.elements()) surface.bend.push_back(order.number(-170, 170) * std::numbers::pi / 180);
+  for (const RecipeValue& order : v.elements()) surface.bend.push_back(order.degrees(-170, 170));
 }
 
 const KeyRule<SurfaceOptions> kSurfaceKeys[] = {
@@ -263,14 +266,14 @@ Recipe read_recipe(const std::filesystem::path& file, const std::vector<std::str
                      std::string(error.description()), "TOML");
   }
   Recipe recipe = read_root(std::move(root), {file, {}}, overrides);
-  if (!recipe.skeleton.lsystem && !recipe.skeleton.file)
-    throw InputError({file.string()}, "no skeleton", "lsystem = \"...\" or file = \"...\" in [skeleton]");
+  if (!recipe.skeleton.has_source())
+    throw InputError({file.string()}, "no skeleton", "lsystem = \"...\" or file = \"...\" in [skeleton], or [skeleton.graph]");
   return recipe;
 }
 
 Recipe empty_recipe(const std::filesystem::path& input, const std::vector<std::string>& overrides) {
   Recipe recipe = read_root({}, {input, {}}, overrides);
-  if (recipe.skeleton.lsystem || recipe.skeleton.file)
+  if (recipe.skeleton.has_source())
     throw InputError(recipe.skeleton.named_at, "a skeleton source for an input that is one",
                      "a recipe (.tree.toml) as input");
   return recipe;

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "blobtree/input_error.h"
+#include "cli/named_file.h"
+#include "cli/recipe_graph.h"
 #include "lsystem/lsystem.h"
 #include "polygonize/polygonize.h"
 #include "polygonize/volume.h"
@@ -18,21 +20,18 @@
 
 namespace cambium {
 
-/// [skeleton]: where it comes from. Exactly one of lsystem and file is set in a recipe, none for any other input.
+/// [skeleton]: where it comes from. Exactly one of lsystem, file and graph is set in a recipe, none for any other input.
 struct SkeletonRecipe {
   std::optional<std::filesystem::path> lsystem, file;  ///< relative to the working directory
+  std::optional<GraphRecipe> graph;
   SourceLocation named_at;                             ///< where the recipe names it
   std::optional<std::string> label;                    ///< which L-system of the file; unset: the first
   std::optional<Dialect> dialect;                      ///< of the L-system; unset: as its file's extension says
   std::optional<int> steps;                            ///< of derivation; unset: the L-system's own
-  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> seed;                   ///< unset: the L-system's or the graph's own
   TurtleOptions turtle;
-};
 
-/// A file that a recipe names. Only commands that need it read it.
-struct NamedFile {
-  std::filesystem::path file;
-  SourceLocation named_at;
+  bool has_source() const { return lsystem || file || graph; }
 };
 
 /// [bark] and [[bark.order]]: what one branch order is covered with.

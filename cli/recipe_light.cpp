@@ -1,7 +1,5 @@
 #include "cli/recipe_light.h"
 
-#include <numbers>
-
 namespace cambium {
 namespace {
 
@@ -94,8 +92,8 @@ const KeyRule<RenderRecipe> kLightKeys[] = {
     {"sun", [](const RecipeValue& v, RenderRecipe& r) { r.light.sun = v.flag(); }},
     {"sun_azimuth", [](const RecipeValue& v, RenderRecipe& r) { r.light.sun_azimuth = v.degrees(); }},
     {"sun_elevation",
-     [](const RecipeValue& v, RenderRecipe& r) { r.light.sun_elevation = v.number(-90, 90) * std::numbers::pi / 180; }},
-    {"sun_size", [](const RecipeValue& v, RenderRecipe& r) { r.light.sun_size = v.number(0, 57) * std::numbers::pi / 180; }},
+     [](const RecipeValue& v, RenderRecipe& r) { r.light.sun_elevation = v.degrees(-90, 90); }},
+    {"sun_size", [](const RecipeValue& v, RenderRecipe& r) { r.light.sun_size = v.degrees(0, 57); }},
     {"sun_color", [](const RecipeValue& v, RenderRecipe& r) { r.light.sun_color = v.color(); }},
     {"area", read_lamps},
     {"ground_color", [](const RecipeValue& v, RenderRecipe& r) { r.light.ground_color = v.color(); }},

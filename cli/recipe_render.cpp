@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <tuple>
 
 #include "cli/recipe_light.h"
@@ -31,7 +30,7 @@ NamedBranch named_branch(const RecipeValue& v) {
 
 void read_fov(const RecipeValue& v, RenderRecipe& r) {
   if (r.camera.focal_length) v.refuse("either focal_length or fov, not both");
-  r.camera.field_of_view = v.number(0.1, 170) * std::numbers::pi / 180;
+  r.camera.field_of_view = v.degrees(0.1, 170);
 }
 
 void read_focus(const RecipeValue& v, RenderRecipe& r) {
@@ -51,7 +50,7 @@ const KeyRule<RenderRecipe> kCameraKeys[] = {
     {"eye", [](const RecipeValue& v, RenderRecipe& r) { r.camera.eye = v.point(); }},
     {"target", [](const RecipeValue& v, RenderRecipe& r) { r.camera.target = v.point(); }},
     {"azimuth", [](const RecipeValue& v, RenderRecipe& r) { r.camera.azimuth = v.degrees(); }},
-    {"elevation", [](const RecipeValue& v, RenderRecipe& r) { r.camera.elevation = v.number(-89, 89) * std::numbers::pi / 180; }},
+    {"elevation", [](const RecipeValue& v, RenderRecipe& r) { r.camera.elevation = v.degrees(-89, 89); }},
     {"focal_length", [](const RecipeValue& v, RenderRecipe& r) { r.camera.focal_length = v.positive_length(); }},
     {"fov", read_fov},
     {"f_number", [](const RecipeValue& v, RenderRecipe& r) { r.camera.f_number = v.number(0.1, 1e6); }},

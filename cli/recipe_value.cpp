@@ -98,7 +98,13 @@ double RecipeValue::not_negative_length() const {
   return value;
 }
 
-double RecipeValue::degrees() const { return number(-3600, 3600) * std::numbers::pi / 180; }
+double RecipeValue::degrees(double lo, double hi) const {
+  if (!is_text()) return number(lo, hi) * std::numbers::pi / 180;
+  const auto parts = parse_parts_of_pi(text());
+  if (!parts || !(lo <= *parts * 180 && *parts * 180 <= hi))
+    refuse(fmt::format("a number from {} to {} (degrees), or a string such as \"0.1pi\" within", lo, hi));
+  return *parts * std::numbers::pi;
+}
 
 Vec3 RecipeValue::point() const {
   const auto parts = elements(3);

@@ -43,7 +43,8 @@ class RecipeValue {
   double length() const;  ///< metres; a number, or a string with a unit
   double positive_length() const;
   double not_negative_length() const;
-  double degrees() const;                                              ///< in radians
+  /// In radians: a number of degrees from lo to hi, or a string in parts of pi such as "0.3pi".
+  double degrees(double lo = -3600, double hi = 3600) const;
   Vec3 point() const;                                                  ///< three lengths
   Vec3 direction() const;                                              ///< three numbers, not all zero
   Vec3 color() const;                                                  ///< linear; [r, g, b] linear or "#rrggbb" sRGB
@@ -75,6 +76,13 @@ struct KeyRule {
   void (*read)(const RecipeValue& value, Part& part);
 };
 
+template <class Part, std::size_t N>
+std::vector<const char*> keys_of(const KeyRule<Part> (&rules)[N]) {
+  std::vector<const char*> keys;
+  for (const auto& rule : rules) keys.push_back(rule.key);
+  return keys;
+}
+
 /// Errors: InputError at a key that is not among `known`.
 void refuse_unknown_keys(const RecipeValue& table, const std::vector<const char*>& known);
 
@@ -82,9 +90,9 @@ void refuse_unknown_keys(const RecipeValue& table, const std::vector<const char*
 /// are left to the caller.
 template <class Part, std::size_t N>
 void read_table(const RecipeValue& table, const KeyRule<Part> (&rules)[N], Part& part,
-                std::vector<const char*> also_known = {}) {
-  std::vector<const char*> known = std::move(also_known);
-  for (const auto& rule : rules) known.push_back(rule.key);
+                const std::vector<const char*>& also_known = {}) {
+  std::vector<const char*> known = keys_of(rules);
+  known.insert(known.end(), also_known.begin(), also_known.end());
   refuse_unknown_keys(table, known);
   for (const auto& rule : rules)
     if (const toml::node* node = table.table().get(rule.key))

@@ -70,6 +70,13 @@ double parse_positive_length(std::string_view text, const SourceLocation& at) {
   return length;
 }
 
+std::optional<double> parse_parts_of_pi(std::string_view text) {
+  std::string_view rest = trimmed(text);
+  if (rest == "pi" || rest == "-pi") return rest == "pi" ? 1 : -1;
+  const auto parts = take_number(rest);
+  return trimmed(rest) == "pi" ? parts : std::nullopt;
+}
+
 std::size_t parse_count(std::string_view text, const SourceLocation& at) {
   std::string_view rest = trimmed(text);
   const auto value = take_number(rest);

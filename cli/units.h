@@ -19,6 +19,9 @@ double parse_length(std::string_view text, const SourceLocation& at);
 /// The same, greater than zero.
 double parse_positive_length(std::string_view text, const SourceLocation& at);
 
+/// "0.3pi", "-pi": 0.3, -1. nullopt for anything else.
+std::optional<double> parse_parts_of_pi(std::string_view text);
+
 /// "20000", "50k" or "1.2M": a whole number of at least 1. Errors: InputError at `at`.
 std::size_t parse_count(std::string_view text, const SourceLocation& at);
 

@@ -28,6 +28,14 @@ TEST(Units, WhatIsNoLengthIsRefusedByName) {
   }
 }
 
+TEST(Units, PartsOfPiNameIt) {
+  EXPECT_DOUBLE_EQ(parse_parts_of_pi("0.3pi").value(), 0.3);
+  EXPECT_DOUBLE_EQ(parse_parts_of_pi(" -0.12 pi ").value(), -0.12);
+  EXPECT_DOUBLE_EQ(parse_parts_of_pi("pi").value(), 1);
+  EXPECT_DOUBLE_EQ(parse_parts_of_pi("-pi").value(), -1);
+  for (const char* text : {"", "0.3", "0.3pix", "pipi", "--1pi", "nan pi", "p", "0.3 deg"}) EXPECT_FALSE(parse_parts_of_pi(text)) << text;
+}
+
 TEST(Units, PositiveLengthsRefuseZeroAndLess) {
   EXPECT_THROW(parse_positive_length("0mm", kHere), InputError);
   EXPECT_THROW(parse_positive_length("-2mm", kHere), InputError);
