@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffff;
 constexpr std::size_t kGrain = 2048;   // nodes, some milliseconds
-constexpr double kGridSide = 1.25;     // spacings: little more than a node to a cell
+constexpr double kGridSide = 1.5;     // spacings: little more than a node to a cell
 /// Within that many spacings, times the cube root of the sectors, nine nodes are in a sector on average.
 constexpr double kYaoReach = 1.5;
 
@@ -27,28 +27,27 @@ class NearestInSectors {
   /// How far a row of cells along x is still of interest, squared; by the signs of y and z from the node to it, each 0, 1 (none) or 2.
   using RowBounds = std::array<std::array<double, 3>, 3>;
 
-  NearestInSectors(std::span<const Vec3> directions, double reach)
-      : directions_(directions), reach2_(reach * reach), distance2_(directions.size()), node_(directions.size()) {}
+  NearestInSectors(std::span<const Vec3> directions, double reach) : directions_(directions), reach2_(reach * reach) {}
 
   void clear() {
-    std::fill(distance2_.begin(), distance2_.end(), reach2_);
-    std::fill(node_.begin(), node_.end(), kNone);
+    std::fill_n(distance2_.begin(), directions_.size(), reach2_);
+    std::fill_n(node_.begin(), directions_.size(), kNone);
     farthest2_ = reach2_;
   }
   template <class Allowed>
   void offer(std::uint32_t node, const Vec3& way, const Allowed& allowed) {
     const double d2 = glm::dot(way, way);
     if (d2 > farthest2_) return;
-    const auto sector = static_cast<std::size_t>(yao_sector(directions_, way));
+    const std::size_t sector = sector_of(way);
     if (d2 > distance2_[sector] || (d2 == distance2_[sector] && node > node_[sector]) || d2 == 0 || !allowed(node)) return;
     distance2_[sector] = d2;
     node_[sector] = node;
   }
   /// Squared; beyond it nothing is of interest any more.
-  double farthest2() { return farthest2_ = *std::max_element(distance2_.begin(), distance2_.end()); }
+  double farthest2() { return farthest2_ = *std::max_element(distance2_.begin(), distance2_.begin() + std::ptrdiff_t(directions_.size())); }
   RowBounds row_bounds() const {
     RowBounds bounds{};
-    if (directions_.size() != 8) {
+    if (!has_octants()) {
       for (auto& of_y : bounds) of_y.fill(farthest2_);
       return bounds;
     }
@@ -58,13 +57,16 @@ class NearestInSectors {
           bounds[y][z] = std::max(bounds[y][z], distance2_[octant]);
     return bounds;
   }
-  const std::vector<std::uint32_t>& nodes() const { return node_; }
+  std::span<const std::uint32_t> nodes() const { return {node_.data(), directions_.size()}; }
 
  private:
+  bool has_octants() const { return directions_.size() == 8; }
+  std::size_t sector_of(const Vec3& way) const { return has_octants() ? yao_octant(way) : std::size_t(yao_sector(directions_, way)); }
+
   std::span<const Vec3> directions_;
   double reach2_, farthest2_ = 0;
-  std::vector<double> distance2_;
-  std::vector<std::uint32_t> node_;
+  std::array<double, 64> distance2_;
+  std::array<std::uint32_t, 64> node_;
 };
 
 /// Offers nodes from the inside out, until none that is farther can be of interest.

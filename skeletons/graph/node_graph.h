@@ -37,6 +37,9 @@ std::vector<Vec3> yao_directions(int sectors);
 /// The sector that v, not 0, points into; the lower of two at the same angle.
 int yao_sector(std::span<const Vec3> directions, const Vec3& v);
 
+/// Of eight sectors: which coordinates are negative, x in bit 0.
+inline std::size_t yao_octant(const Vec3& v) { return std::size_t(v.x < 0) | std::size_t(v.y < 0) << 1 | std::size_t(v.z < 0) << 2; }
+
 /// How long an edge of kYao may be, metres: three spacings with eight sectors, with more as much farther as makes up for sectors being
 /// narrower. Where nodes are farther apart than `spacing` says, in spacings of as many that fill the same room. Without a bound, nodes
 /// on the surface would be joined across hollows.

@@ -9,7 +9,7 @@
 namespace cambium {
 namespace {
 
-/// In the order that yao_sector numbers octants by: bit k of the number is set where coordinate k is negative.
+/// In the order of yao_octant.
 std::vector<Vec3> cube_corners() {
   std::vector<Vec3> corners;
   for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? -1 : 1, i & 2 ? -1 : 1, i & 4 ? -1 : 1});
@@ -71,7 +71,7 @@ std::vector<Vec3> yao_directions(int sectors) {
 }
 
 int yao_sector(std::span<const Vec3> directions, const Vec3& v) {
-  if (directions.size() == 8) return (v.x < 0) | (v.y < 0) << 1 | (v.z < 0) << 2;
+  if (directions.size() == 8) return static_cast<int>(yao_octant(v));
   int best = 0;
   double most = -kInfinity;
   for (std::size_t i = 0; i < directions.size(); ++i)
