@@ -1,21 +1,12 @@
 #include "skeletons/graph/least_cost.h"
 
-#include <limits>
-#include <queue>
-#include <tuple>
+#include "skeletons/graph/monotone_queue.h"
 
 namespace cambium {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNone = 0xffffffff;
 constexpr std::size_t kPollEvery = 4096;   // nodes, some milliseconds
-
-/// A way to a node, not known yet to be the cheapest.
-struct Offer {
-  double cost;
-  std::uint32_t node;
-  bool operator>(const Offer& other) const { return std::tie(cost, node) > std::tie(other.cost, other.node); }
-};
 
 }  // namespace
 
@@ -24,26 +15,22 @@ std::optional<LeastCostPaths> least_cost_paths(std::span<const Vec3> positions, 
   const std::size_t n = graph.nodes();
   LeastCostPaths paths{std::vector<std::uint32_t>(n, kNone), std::vector<double>(n, kInfinity)};
   if (n == 0) return paths;
-  std::vector<bool> is_final(n);
-  std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers;
+  MonotoneQueue queue;
   paths.next[0] = 0;
   paths.cost[0] = 0;
-  offers.push({0, 0});
-  for (std::size_t settled = 0; !offers.empty();) {
-    const Offer best = offers.top();
-    offers.pop();
-    const std::uint32_t u = best.node;
-    if (is_final[u]) continue;
-    is_final[u] = true;
-    if (++settled % kPollEvery == 0 && run.cancelled()) return std::nullopt;
+  queue.push(0, 0);
+  for (std::size_t taken = 1; !queue.empty(); ++taken) {
+    if (taken % kPollEvery == 0 && run.cancelled()) return std::nullopt;
+    const auto [cost, u] = queue.take();
+    if (cost > paths.cost[u]) continue;                 // a cheaper way has been found since
     for (const std::uint32_t v : graph.of(u)) {
-      if (is_final[v]) continue;
-      const double cost = best.cost + weights.of(seed, u, v, positions[u], positions[v]);
-      if (cost < paths.cost[v]) {
-        paths.cost[v] = cost;
+      if (paths.cost[v] <= cost) continue;              // no way over u can be cheaper
+      const double through = cost + weights.of(seed, u, v, positions[u], positions[v]);
+      if (through < paths.cost[v]) {
+        paths.cost[v] = through;
         paths.next[v] = u;
-        offers.push({cost, v});
-      } else if (cost == paths.cost[v] && u < paths.next[v]) {
+        queue.push(through, v);
+      } else if (through == paths.cost[v] && u < paths.next[v]) {
         paths.next[v] = u;
       }
     }
