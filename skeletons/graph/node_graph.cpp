@@ -100,9 +100,15 @@ struct Arcs {
   }
 };
 
-std::optional<Arcs> yao_arcs(std::span<const Vec3> positions, const NodeGrid& grid, const JoinRules& rules, int sectors, double reach,
-                             const RunOptions& run) {
+double yao_reach(const NodeGrid& grid, double spacing, int sectors) {
+  return kYaoReach * std::cbrt(sectors) * std::max(spacing, grid.natural_spacing());
+}
+
+std::optional<Arcs> yao_arcs(const JoinRules& rules, double spacing, int sectors, const RunOptions& run) {
   const std::vector<Vec3> directions = yao_directions(sectors);
+  const std::span<const Vec3> positions = rules.positions;
+  const NodeGrid grid(positions, kGridSide * spacing);
+  const double reach = yao_reach(grid, spacing, sectors);
   Arcs arcs{directions.size(), std::vector<std::uint32_t>(positions.size() * directions.size(), kNone)};
   const bool finished = in_node_chunks(positions.size(), kGrain, run, [&](std::size_t begin, std::size_t end) {
     NearestInSectors nearest(directions, reach);
@@ -131,25 +137,26 @@ std::optional<NodeGraph> both_ways(const Arcs& arcs, std::size_t nodes, const Ru
   std::vector<std::uint32_t> returns(nodes, 0);   // arcs to a node that it has not itself
   const auto of_each_arc = [&](const auto& visit) {
     return in_node_chunks(nodes, kGrain, run, [&](std::size_t begin, std::size_t end) {
-      for (auto u = static_cast<std::uint32_t>(begin); u < end; ++u)
+      for (auto u = static_cast<std::uint32_t>(begin); u < end; ++u) {
+        std::uint32_t i = 0;
         for (const std::uint32_t v : arcs.of(u))
-          if (v != kNone) visit(u, v);
+          if (v != kNone) visit(u, v, i++);
+      }
     });
   };
   const auto count = [](std::uint32_t& counter, std::uint32_t by) {
     return std::atomic_ref<std::uint32_t>(counter).fetch_add(by, std::memory_order_relaxed);
   };
-  if (!of_each_arc([&](std::uint32_t u, std::uint32_t v) {
+  if (!of_each_arc([&](std::uint32_t u, std::uint32_t v, std::uint32_t) {
         count(graph.first[u + 1], 1);
         if (!arcs.leads(v, u)) count(graph.first[v + 1], 1), count(returns[v], 1);
       }))
     return std::nullopt;
   begin_each(graph.first);
   graph.to.resize(graph.first.back());
-  // Returns are put at the end of a node's, its own arcs before them.
-  std::vector<std::uint32_t> own(nodes, 0);
-  if (!of_each_arc([&](std::uint32_t u, std::uint32_t v) {
-        graph.to[graph.first[u] + own[u]++] = v;
+  // A node's own arcs come first, returns are put in from its end backwards.
+  if (!of_each_arc([&](std::uint32_t u, std::uint32_t v, std::uint32_t i) {
+        graph.to[graph.first[u] + i] = v;
         if (!arcs.leads(v, u)) graph.to[graph.first[v + 1] - count(returns[v], kNone)] = u;   // counts down
       }))
     return std::nullopt;
@@ -157,8 +164,15 @@ std::optional<NodeGraph> both_ways(const Arcs& arcs, std::size_t nodes, const Ru
   return graph;
 }
 
-std::optional<NodeGraph> near_pairs(std::span<const Vec3> positions, const NodeGrid& grid, const JoinRules& rules, double longest,
-                                    const RunOptions& run) {
+std::optional<NodeGraph> yao_graph(const JoinRules& rules, double spacing, int sectors, const RunOptions& run) {
+  const std::optional<Arcs> arcs = yao_arcs(rules, spacing, sectors, run);
+  if (!arcs) return std::nullopt;
+  return both_ways(*arcs, rules.positions.size(), run);
+}
+
+std::optional<NodeGraph> near_pairs(const JoinRules& rules, double longest, const RunOptions& run) {
+  const std::span<const Vec3> positions = rules.positions;
+  const NodeGrid grid(positions, longest);
   NodeGraph graph;
   graph.first.assign(positions.size() + 1, 0);
   const auto of_each_pair = [&](const auto& visit) {
@@ -191,7 +205,7 @@ void require(bool holds, const char* key, double value, const char* expected) {
 }  // namespace
 
 double longest_yao_edge(std::span<const Vec3> positions, double spacing, int sectors) {
-  return kYaoReach * std::cbrt(sectors) * std::max(spacing, NodeGrid(positions, kGridSide * spacing).natural_spacing());
+  return yao_reach(NodeGrid(positions, kGridSide * spacing), spacing, sectors);
 }
 
 std::optional<NodeGraph> join_nodes(std::span<const Vec3> positions, double spacing, std::span<const std::uint16_t> parts,
@@ -199,16 +213,8 @@ std::optional<NodeGraph> join_nodes(std::span<const Vec3> positions, double spac
   require(spacing > 0 && std::isfinite(spacing), "spacing", spacing, "a finite spacing above 0");
   if (options.rule == EdgeRule::kThreshold) require(options.threshold > 1, "threshold", options.threshold, "more than 1");
   const JoinRules rules{positions, parts, obstacles};
-  std::optional<NodeGraph> graph;
-  {
-    const NodeGrid grid(positions, kGridSide * spacing);
-    if (options.rule == EdgeRule::kThreshold) {
-      graph = near_pairs(positions, grid, rules, options.threshold * spacing, run);
-    } else {
-      const double reach = kYaoReach * std::cbrt(options.sectors) * std::max(spacing, grid.natural_spacing());
-      if (const auto arcs = yao_arcs(positions, grid, rules, options.sectors, reach, run)) graph = both_ways(*arcs, positions.size(), run);
-    }
-  }
+  std::optional<NodeGraph> graph = options.rule == EdgeRule::kThreshold ? near_pairs(rules, options.threshold * spacing, run)
+                                                                        : yao_graph(rules, spacing, options.sectors, run);
   if (!graph || !reach_all(*graph, rules, spacing, run)) return std::nullopt;
   return graph;
 }

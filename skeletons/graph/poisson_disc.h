@@ -12,7 +12,8 @@
 namespace cambium {
 
 struct PoissonDiscOptions {
-  /// Nodes wanted, those given included; unset: as many as fit. Fewer come out where no more fit at `spacing`.
+  /// Nodes wanted, those given included; unset: as many as fit. Fewer come out where no more fit at `spacing`; where more would, they
+  /// are drawn from as many as fit, or from eight times as many.
   std::optional<std::size_t> count{};
   /// The least distance between any two nodes, metres; unset: chosen so that `count` nodes fill the volume. One of the two is set.
   std::optional<double> spacing{};
