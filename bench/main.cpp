@@ -19,7 +19,7 @@ constexpr const char* kUsage =
     "usage: cambium_bench [--quick] [--json FILE] [--only SECTION]...\n"
     "  --quick         shorter measurements and smaller trees: ratios are then rough\n"
     "  --json FILE     writes the table's rows there too\n"
-    "  --only SECTION  batches, nodes, poplar, trees, lsystems, rays, or mesher, which takes minutes and runs only where it is named\n";
+    "  --only SECTION  batches, nodes, poplar, trees, lsystems, graphs, rays, or mesher, which takes minutes and runs only where it is named\n";
 
 struct Arguments {
   bool quick = false;
@@ -34,7 +34,7 @@ struct Section {
 };
 constexpr Section kSections[] = {
     {"batches", batch_section}, {"nodes", node_section}, {"poplar", poplar_section}, {"trees", trees_section},
-    {"lsystems", lsystem_section}, {"rays", rays_section},       {"mesher", mesher_section, false}};
+    {"lsystems", lsystem_section}, {"graphs", graphs_section}, {"rays", rays_section},       {"mesher", mesher_section, false}};
 
 /// False, with a line on the error stream, if there is something wrong with them.
 bool read_arguments(int count, char** words, Arguments& arguments) {

@@ -15,6 +15,8 @@ void poplar_section(Report& report, const Pace& pace);
 void trees_section(Report& report, const Pace& pace);
 /// Derivation of strings of ten million modules.
 void lsystem_section(Report& report, const Pace& pace);
+/// Graphs of up to ten million nodes, and whole plans. Takes most of a minute.
+void graphs_section(Report& report, const Pace& pace);
 /// Our mesher against OpenVDB's at equal error. Takes minutes, and some gigabytes for OpenVDB's.
 void mesher_section(Report& report, const Pace& pace);
 /// Rays at the field against Embree's own curves. Takes half a minute.

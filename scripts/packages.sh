@@ -8,7 +8,7 @@ packages=(
   libopenmesh-dev libtinygltf-dev nlohmann-json3-dev libopenvdb-dev libboost-dev
   libembree-dev libopenimageio-dev
   libcli11-dev libtomlplusplus-dev
-  libgtest-dev libgmock-dev libbenchmark-dev libcgal-dev python3 python3-openvdb
+  libgtest-dev libgmock-dev libbenchmark-dev libnanoflann-dev libcgal-dev python3 python3-openvdb
 )
 # The glTF validator's: any node that is there will do, Debian's must not come in beside another.
 command -v node > /dev/null || packages+=(nodejs npm)
