@@ -489,6 +489,27 @@ TEST(RecipeGraph, TheReferenceNamesEveryKeyWithAComment) {
   }
 }
 
+/// The fifteen of the paper's table among them.
+TEST(RecipeGraph, AllExamplesAreReadWithTheirFilesAndBeginWithTheirSource) {
+  std::size_t examples = 0, of_table = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(reference().parent_path())) {
+    if (!entry.path().string().ends_with(".tree.toml")) continue;
+    SCOPED_TRACE(entry.path());
+    ++examples;
+    of_table += entry.path().filename().string().starts_with("table_2");
+    const Recipe recipe = read_recipe(entry.path(), {});
+    ASSERT_TRUE(recipe.skeleton.graph);
+    EXPECT_TRUE(recipe.mesh.polygonize.tolerance);
+    EXPECT_GE(load_graph(*recipe.skeleton.graph).volume.size(), 1u);
+    std::ifstream file(entry.path());
+    std::string first;
+    std::getline(file, first);
+    EXPECT_TRUE(first.starts_with("# ")) << first;
+  }
+  EXPECT_EQ(of_table, 15u);
+  EXPECT_GT(examples, 30u);
+}
+
 TEST(RecipeGraph, TheReferenceIsRead) {
   const Recipe recipe = read_recipe(reference(), {});
   ASSERT_TRUE(recipe.skeleton.graph);
