@@ -208,6 +208,7 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
     rule.radii = options.cell_radii;
     rule.sparse_radii = options.sparse_radii;
     rule.sparse_atoms = options.sparse_atoms;
+    rule.shared_radii = options.shared_radii;
     rule.sagitta = options.sagitta;
   }
   ProgressMeter progress(run, "covering the surface");
@@ -228,6 +229,7 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
       }
       rule.radii *= coarser;
       rule.sparse_radii *= coarser;
+      rule.shared_radii *= coarser;
       rule.sagitta *= coarser * coarser;
       if (attempt > 1) coarser *= kGrowth;
       if (!(rule.radii < kMostRadii)) {

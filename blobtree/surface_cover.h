@@ -20,6 +20,8 @@ struct CoverOptions {
   double cell_radii = 1.6;
   double sparse_radii = 8;
   std::size_t sparse_atoms = 4;
+  /// Where more than one primitive is active, also no longer than this: then more cells hold one alone.
+  double shared_radii = kInfinity;
   /// And nowhere more than sqrt(sagitta * smallest active radius), metres. Infinite: no such limit.
   double sagitta = kInfinity;
   /// Cells that follow the branches have this edge times a power of two; unset: one that divides the field's bounds.

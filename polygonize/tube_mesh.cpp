@@ -100,7 +100,7 @@ std::vector<Ends> assign_loops(const SurfaceOctree& tree, const SurfaceCover& co
       if (vertex >= contour.patches.size()) continue;   // on a face between two others
       const std::uint32_t cell = tree.leaves()[contour.patches[vertex].leaf].cell;
       const auto end = runs.nearest_end(cover.cube_field(cell), mesh.positions[vertex]);
-      if (!end) break;
+      if (!end) continue;   // in a cell that is not the chain's alone
       ends[end->run].loops[end->end] = loop;
       ++ends[end->run].count[end->end];
       break;

@@ -3,6 +3,7 @@
 #include "blobtree/box_tree.h"
 #include "polygonize/ordered_chunks.h"
 
+#include <cstdlib>
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +12,11 @@ namespace {
 
 constexpr std::size_t kCellsPerTask = 4096, kChainsPerTask = 16;
 constexpr double kStraight = 0.5;      // cosine: a chain that turns more in a cell, or as a whole, may come to lie beside itself
-// In edges of the largest leaves there: what stays of a lone stretch beside other things, from the ends of a run to its rings, and how
-// long a run must be to save more than its ends cost.
-constexpr double kMargin = 1.1, kJoin = 1.4, kShortest = 3.5;
+double ev(const char* n, double d) { const char* e = std::getenv(n); return e ? std::atof(e) : d; }
+// In edges of the largest leaves there: what stays of a chain at its ends, from the ends of a run to its rings, and how long a run must
+// be to save more than its ends cost.
+const double kMargin = ev("KM",1.1), kJoin = ev("KJ",1.4), kShortest = ev("KS",3.5);
+const double kHalfDiagonal = ev("HD", 0.87);   // of a cube of edge 1
 constexpr double kApart = 1.5;         // in sums of radii: of the axes of parts of one chain that are no neighbours
 
 /// Part of a chain, in segments and parts of segments from its root.
@@ -73,7 +76,7 @@ class TubeSearch {
   /// taken: of that chain.
   std::vector<TubeRun> runs_of(std::uint32_t primitive, const ChainPath& path, std::span<const TakenPart> taken) const {
     std::vector<Stretch> away = ends_of(path);
-    for (const TakenPart& part : taken) away.push_back(widened(path, {metres(path, part.nodes.begin), metres(path, part.nodes.end)}));
+    for (const TakenPart& part : taken) away.push_back({metres(path, part.nodes.begin), metres(path, part.nodes.end)});
     if (may_meet_itself(path)) add_parts_beside_itself(path, away);
     std::sort(away.begin(), away.end(), [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
     std::vector<TubeRun> runs;
@@ -165,13 +168,23 @@ class TubeSearch {
 
 namespace {
 
-// Of a cell: the parts of chains whose surface may be in it.
-void append_parts_of(const std::vector<ActiveChain>& chains, const Box& cube, std::vector<TakenPart>& taken) {
+/// Of a segment: all whose surface may be in a cell or whose axis passes the middle of a leaf there that holds some of it. leaf: their edge,
+/// or up to twice that.
+std::optional<Stretch> part_in_cell(ChainNode from, ChainNode to, const Box& cube, double leaf) {
+  std::optional<Stretch> part = reaching(from, to, cube);
+  from.radius += kHalfDiagonal * leaf;
+  to.radius += kHalfDiagonal * leaf;
+  const auto middles = reaching(from, to, cube.padded(-leaf / 4));
+  if (!part || !middles) return part ? part : middles;
+  return Stretch{std::min(part->begin, middles->begin), std::max(part->end, middles->end)};
+}
+
+void append_parts_of(const std::vector<ActiveChain>& chains, const Box& cube, double leaf, std::vector<TakenPart>& taken) {
   for (const ActiveChain& chain : chains) {
     const auto nodes = chain.nodes();
     for (std::size_t k = 0; k < chain.segment_count(); ++k) {
       const std::uint32_t number = chain.segment_number(k);
-      const auto part = reaching(nodes[number], nodes[number + 1], cube);
+      const auto part = part_in_cell(nodes[number], nodes[number + 1], cube, leaf);
       if (!part) continue;
       const double length = std::max(glm::distance(nodes[number].position, nodes[number + 1].position), 1e-300);
       const Stretch found{number + part->begin / length, number + part->end / length};
@@ -198,7 +211,7 @@ std::optional<TubeRuns> TubeRuns::find(const SurfaceCover& cover, const LeafRule
       }
       chains.clear();
       ActiveChain::append(field, chains);
-      append_parts_of(chains, field.box(), part.taken);
+      append_parts_of(chains, field.box(), leaves.edge(field.smallest_radius()), part.taken);
     }
   });
   if (run.cancelled()) return std::nullopt;
