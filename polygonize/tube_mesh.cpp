@@ -7,17 +7,19 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace cambium {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::size_t kRunsPerTask = 8;
+constexpr int kMostLeftOut = 2;   // rings
 
 struct BuiltTube {
   Tube tube;
   double largest_error = 0;
-  bool sound = false;
+  bool begins = false, sound = false;   // joined where it begins; at both ends
 };
 
 /// Of a run: the loop at its begin and at its end.
@@ -31,35 +33,43 @@ class TubeBuilder {
   TubeBuilder(const TubeRuns& runs, const MeshBorder& border, double tolerance, const Mesh& mesh)
       : runs_(runs), border_(border), tolerance_(tolerance), mesh_(mesh) {}
 
-  /// Not sound if cancelled.
+  /// Not sound if cancelled. Where the mesh does not join the first ring from an end it may join the next.
   BuiltTube build(const TubeRun& run, const Ends& ends, const RunOptions& options) const {
+    if (ends.count != std::array<int, 2>{1, 1}) return {};
+    std::span<const TubeRing> rings = run.rings;
+    for (int left_out = 0;; ++left_out) {
+      BuiltTube built = build_from(runs_.path(run), rings, ends, options);
+      if (built.sound || left_out == kMostLeftOut || rings.size() == 2 || options.cancelled()) return built;
+      rings = built.begins ? rings.first(rings.size() - 1) : rings.subspan(1);
+    }
+  }
+
+ private:
+  BuiltTube build_from(const ChainPath& path, std::span<const TubeRing> rings, const Ends& ends, const RunOptions& options) const {
     BuiltTube built;
-    if (ends.count != std::array<int, 2>{1, 1}) return built;
-    const ChainPath& path = runs_.path(run);
     Tube& tube = built.tube;
     std::vector<std::uint32_t> first;   // vertex of each ring
-    for (const TubeRing& ring : run.rings) {
+    for (const TubeRing& ring : rings) {
       if (options.cancelled()) return built;
       for (std::uint32_t k = 0; k < ring.sides; ++k) {
         const std::uint32_t vertex = tube.add(ring_corner(path, ring, k));
         if (k == 0) first.push_back(vertex);
       }
     }
-    for (std::size_t i = 0; i + 1 < run.rings.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
       const std::size_t begin = tube.triangles.size();
-      add_wall(first[i], run.rings[i].sides, first[i + 1], run.rings[i + 1].sides, tube.triangles);
-      measure(path, begin, (run.rings[i].at + run.rings[i + 1].at) / 2, built);
+      add_wall(first[i], rings[i].sides, first[i + 1], rings[i + 1].sides, tube.triangles);
+      measure(path, begin, (rings[i].at + rings[i + 1].at) / 2, built);
     }
     const std::size_t walls = tube.triangles.size();
-    built.sound = TubeJoin(path, run.rings.front(), false, mesh_, border_, ends.loops[0], tolerance_).add_to(tube, first.front());
-    measure(path, walls, run.rings.front().at, built);
+    built.begins = TubeJoin(path, rings.front(), false, mesh_, border_, ends.loops[0], tolerance_).add_to(tube, first.front());
+    measure(path, walls, rings.front().at, built);
     const std::size_t others = tube.triangles.size();
-    built.sound = built.sound && TubeJoin(path, run.rings.back(), true, mesh_, border_, ends.loops[1], tolerance_).add_to(tube, first.back());
-    measure(path, others, run.rings.back().at, built);
+    built.sound = built.begins && TubeJoin(path, rings.back(), true, mesh_, border_, ends.loops[1], tolerance_).add_to(tube, first.back());
+    measure(path, others, rings.back().at, built);
     return built;
   }
 
- private:
   // Whichever of the next corners comes first around is taken first.
   static void add_wall(std::uint32_t lower, std::uint32_t lower_sides, std::uint32_t upper, std::uint32_t upper_sides,
                        std::vector<Triangle>& triangles) {
@@ -100,7 +110,7 @@ std::vector<Ends> assign_loops(const SurfaceOctree& tree, const SurfaceCover& co
       if (vertex >= contour.patches.size()) continue;   // on a face between two others
       const std::uint32_t cell = tree.leaves()[contour.patches[vertex].leaf].cell;
       const auto end = runs.nearest_end(cover.cube_field(cell), mesh.positions[vertex]);
-      if (!end) continue;   // in a cell that is not the chain's alone
+      if (!end) continue;   // in a cell of none of their chains
       ends[end->run].loops[end->end] = loop;
       ++ends[end->run].count[end->end];
       break;

@@ -3,7 +3,6 @@
 #include "blobtree/box_tree.h"
 #include "polygonize/ordered_chunks.h"
 
-#include <cstdlib>
 #include <algorithm>
 #include <cmath>
 
@@ -12,11 +11,9 @@ namespace {
 
 constexpr std::size_t kCellsPerTask = 4096, kChainsPerTask = 16;
 constexpr double kStraight = 0.5;      // cosine: a chain that turns more in a cell, or as a whole, may come to lie beside itself
-double ev(const char* n, double d) { const char* e = std::getenv(n); return e ? std::atof(e) : d; }
-// In edges of the largest leaves there: what stays of a chain at its ends, from the ends of a run to its rings, and how long a run must
-// be to save more than its ends cost.
-const double kMargin = ev("KM",1.1), kJoin = ev("KJ",1.4), kShortest = ev("KS",3.5);
-const double kHalfDiagonal = ev("HD", 0.87);   // of a cube of edge 1
+// In edges of the leaves there: what stays of a chain around its ends, what at least between two runs (of less there may be islands
+// instead of a whole ring of leaves), from the ends of a run to its rings, and how long a run must be to save more than its ends cost.
+constexpr double kTips = 1.3, kBetween = 3, kJoin = 1.2, kShortest = 3;
 constexpr double kApart = 1.5;         // in sums of radii: of the axes of parts of one chain that are no neighbours
 
 /// Part of a chain, in segments and parts of segments from its root.
@@ -78,7 +75,8 @@ class TubeSearch {
     std::vector<Stretch> away = ends_of(path);
     for (const TakenPart& part : taken) away.push_back({metres(path, part.nodes.begin), metres(path, part.nodes.end)});
     if (may_meet_itself(path)) add_parts_beside_itself(path, away);
-    std::sort(away.begin(), away.end(), [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
+    away = joined(std::move(away));
+    for (Stretch& part : away) part = widened(part, kBetween * leaf_at(path, (part.begin + part.end) / 2));
     std::vector<TubeRun> runs;
     double from = 0;
     for (const Stretch& part : away) {
@@ -94,12 +92,30 @@ class TubeSearch {
     const double before = path.node_at(whole), part = node - static_cast<double>(whole);
     return part > 0 && whole < path.segment_count() ? before + part * (path.node_at(whole + 1) - before) : before;
   }
-  double leaf_at(const ChainPath& path, double s) const { return leaves_.edge(path.radius(s)); }
-  Stretch widened(const ChainPath& path, const Stretch& part) const {
-    return {part.begin - kMargin * leaf_at(path, part.begin), part.end + kMargin * leaf_at(path, part.end)};
+  /// The edge of the leaves that hold nothing but the chain there, before any is cut.
+  double leaf_at(const ChainPath& path, double s) const {
+    const double most = leaves_.edge(path.radius(s)), unit = cover_.grid().cell;
+    return most > unit ? std::ldexp(unit, std::ilogb(most / unit)) : most;
+  }
+  /// To a length, in the middle of what it was, unless it is as long already.
+  static Stretch widened(const Stretch& part, double length) {
+    const double more = std::max(0.0, length - (part.end - part.begin)) / 2;
+    return {part.begin - more, part.end + more};
   }
   std::vector<Stretch> ends_of(const ChainPath& path) const {
-    return {widened(path, {0, 0}), widened(path, {path.length(), path.length()})};
+    std::vector<Stretch> ends;
+    for (const double s : {0.0, path.length()}) ends.push_back(widened({s, s}, 2 * kTips * leaf_at(path, s)));
+    return ends;
+  }
+  /// In order, none touching the next.
+  static std::vector<Stretch> joined(std::vector<Stretch> parts) {
+    std::sort(parts.begin(), parts.end(), [](const Stretch& a, const Stretch& b) { return a.begin < b.begin; });
+    std::vector<Stretch> whole;
+    for (const Stretch& part : parts) {
+      if (whole.empty() || part.begin > whole.back().end) whole.push_back(part);
+      whole.back().end = std::max(whole.back().end, part.end);
+    }
+    return whole;
   }
 
   void add_parts_beside_itself(const ChainPath& path, std::vector<Stretch>& away) const {
@@ -118,7 +134,7 @@ class TubeSearch {
         if (path.node_at(m) - path.node_at(k + 1) < 2 * reach) return;   // neighbours: bends are looked at where rings are planned
         const Vec3 u = nodes[k + 1].position - nodes[k].position, v = nodes[m + 1].position - nodes[m].position;
         if (distance_between(nodes[k].position, u, nodes[m].position, v) > reach) return;
-        for (const std::size_t own : {k, m}) away.push_back(widened(path, {path.node_at(own), path.node_at(own + 1)}));
+        for (const std::size_t own : {k, m}) away.push_back({path.node_at(own), path.node_at(own + 1)});
       });
     }
   }
@@ -168,23 +184,13 @@ class TubeSearch {
 
 namespace {
 
-/// Of a segment: all whose surface may be in a cell or whose axis passes the middle of a leaf there that holds some of it. leaf: their edge,
-/// or up to twice that.
-std::optional<Stretch> part_in_cell(ChainNode from, ChainNode to, const Box& cube, double leaf) {
-  std::optional<Stretch> part = reaching(from, to, cube);
-  from.radius += kHalfDiagonal * leaf;
-  to.radius += kHalfDiagonal * leaf;
-  const auto middles = reaching(from, to, cube.padded(-leaf / 4));
-  if (!part || !middles) return part ? part : middles;
-  return Stretch{std::min(part->begin, middles->begin), std::max(part->end, middles->end)};
-}
-
-void append_parts_of(const std::vector<ActiveChain>& chains, const Box& cube, double leaf, std::vector<TakenPart>& taken) {
+// Of a cell: the parts of chains whose surface may be in it.
+void append_parts_of(const std::vector<ActiveChain>& chains, const Box& cube, std::vector<TakenPart>& taken) {
   for (const ActiveChain& chain : chains) {
     const auto nodes = chain.nodes();
     for (std::size_t k = 0; k < chain.segment_count(); ++k) {
       const std::uint32_t number = chain.segment_number(k);
-      const auto part = part_in_cell(nodes[number], nodes[number + 1], cube, leaf);
+      const auto part = reaching(nodes[number], nodes[number + 1], cube);
       if (!part) continue;
       const double length = std::max(glm::distance(nodes[number].position, nodes[number + 1].position), 1e-300);
       const Stretch found{number + part->begin / length, number + part->end / length};
@@ -211,7 +217,7 @@ std::optional<TubeRuns> TubeRuns::find(const SurfaceCover& cover, const LeafRule
       }
       chains.clear();
       ActiveChain::append(field, chains);
-      append_parts_of(chains, field.box(), leaves.edge(field.smallest_radius()), part.taken);
+      append_parts_of(chains, field.box(), part.taken);
     }
   });
   if (run.cancelled()) return std::nullopt;
@@ -266,7 +272,7 @@ void TubeRuns::remove(const std::vector<std::uint32_t>& listed) {
   first_run_ = std::move(first);
 }
 
-std::optional<std::uint32_t> TubeRuns::path_of(const LoneChain& chain) const {
+std::optional<std::uint32_t> TubeRuns::path_of(const ActiveChain& chain) const {
   const auto known = std::lower_bound(primitives_.begin(), primitives_.end(), chain.primitive());
   if (known == primitives_.end() || *known != chain.primitive()) return std::nullopt;
   return static_cast<std::uint32_t>(known - primitives_.begin());
@@ -296,17 +302,22 @@ TubeRuns::InCell TubeRuns::in(const PrunedField& cell) const {
 }
 
 std::optional<TubeRuns::End> TubeRuns::nearest_end(const PrunedField& cell, const Vec3& p) const {
-  const auto lone = LoneChain::of(cell);
-  const auto path = lone ? path_of(*lone) : std::nullopt;
-  if (!path) return std::nullopt;
-  const double s = paths_[*path].nearest(p, lone->segment_number(0), lone->segment_number(lone->segment_count() - 1));
+  std::vector<ActiveChain> chains;
+  ActiveChain::append(cell, chains);
   std::optional<End> found;
   double least = kInfinity;
-  for (std::uint32_t i = first_run_[*path]; i < first_run_[*path + 1]; ++i) {
-    const Stretch& stretch = runs_[i].stretch;
-    for (const int end : {0, 1}) {
-      const double away = std::abs(s - (end ? stretch.end : stretch.begin));
-      if (away < least) least = away, found = End{i, end};
+  for (const ActiveChain& chain : chains) {
+    const auto number = path_of(chain);
+    if (!number) continue;
+    const ChainPath& path = paths_[*number];
+    const double s = path.nearest(p, chain.segment_number(0), chain.segment_number(chain.segment_count() - 1));
+    const double off = std::abs(path.distance(s, p));
+    for (std::uint32_t i = first_run_[*number]; i < first_run_[*number + 1]; ++i) {
+      const Stretch& stretch = runs_[i].stretch;
+      for (const int end : {0, 1}) {
+        const double away = off + std::abs(s - (end ? stretch.end : stretch.begin));
+        if (away < least) least = away, found = End{i, end};
+      }
     }
   }
   return found;

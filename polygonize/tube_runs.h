@@ -14,7 +14,7 @@
 
 namespace cambium {
 
-/// Between the ends of `stretch` no leaves hold surface; the rings begin and end some way inside of it.
+/// Between the ends of `stretch` no leaves in cells of the chain alone hold surface, and no others are there; the rings begin and end some way inside of it.
 struct TubeRun {
   std::uint32_t path = 0;
   Stretch stretch;
@@ -60,12 +60,12 @@ class TubeRuns {
     std::uint32_t run = 0;
     int end = 0;                               ///< 0: where it begins
   };
-  /// Of the runs of a cell's lone chain, the end that is nearest along it to p, which lies in the cell.
+  /// Of the runs of a cell's chains, the end that is nearest to p, along its chain and off its surface; p lies in the cell.
   std::optional<End> nearest_end(const PrunedField& cell, const Vec3& p) const;
 
  private:
   friend class TubeSearch;
-  std::optional<std::uint32_t> path_of(const LoneChain& chain) const;
+  std::optional<std::uint32_t> path_of(const ActiveChain& chain) const;
   std::span<const TubeRun> of_path(std::uint32_t path) const;
   std::vector<std::uint32_t> primitives_;      // ascending, of paths
   std::vector<ChainPath> paths_;
