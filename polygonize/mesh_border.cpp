@@ -33,31 +33,48 @@ std::vector<Side> sides_between(const Mesh& mesh, const std::vector<std::uint8_t
   return all;
 }
 
-void list_triangles(const Mesh& mesh, MeshBorder& border) {
-  std::vector<std::uint32_t> loop_of(mesh.positions.size(), kNoLoop);   // by vertex
-  for (std::uint32_t loop = 0; loop < border.loops.size(); ++loop)
-    for (const std::uint32_t vertex : border.loops[loop]) loop_of[vertex] = loop;
-  for (int ring = 0; ring < 2; ++ring) {
-    auto parts = in_chunks<std::vector<std::uint32_t>>(mesh.triangles.size(), kTrianglesPerTask, [&](auto& part, std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        const auto& corners = mesh.triangles[t];
-        if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return loop_of[v] != kNoLoop; })) {
-          part.push_back(static_cast<std::uint32_t>(t));
+/// A vertex or a triangle that is near a loop.
+struct Near {
+  std::uint32_t item = 0, loop = 0;
+  auto operator<=>(const Near&) const = default;
+};
+
+void sort_unique(std::vector<Near>& items) {
+  tbb::parallel_sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+/// The triangles that touch vertices, with these's loops.
+std::vector<Near> triangles_at(const Mesh& mesh, const std::vector<Near>& vertices) {
+  std::vector<std::uint8_t> listed(mesh.positions.size(), 0);
+  for (const Near& vertex : vertices) listed[vertex.item] = 1;
+  auto parts = in_chunks<std::vector<Near>>(mesh.triangles.size(), kTrianglesPerTask, [&](auto& part, std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (const std::uint32_t v : mesh.triangles[t]) {
+        if (!listed[v]) continue;
+        for (auto at = std::lower_bound(vertices.begin(), vertices.end(), Near{v, 0}); at != vertices.end() && at->item == v; ++at) {
+          part.push_back({static_cast<std::uint32_t>(t), at->loop});
         }
       }
-    });
-    std::vector<std::uint32_t> near;
-    append_parts(parts, near);
-    border.triangles.assign(border.loops.size(), {});
-    for (const std::uint32_t t : near) {
-      std::uint32_t loop = kNoLoop;
-      for (const std::uint32_t v : mesh.triangles[t]) loop = std::min(loop, loop_of[v]);
-      border.triangles[loop].push_back(t);
-    }
-    for (std::uint32_t loop = 0; loop < border.loops.size(); ++loop)
-      for (const std::uint32_t t : border.triangles[loop])
-        for (const std::uint32_t v : mesh.triangles[t]) loop_of[v] = std::min(loop_of[v], loop);
+  });
+  std::vector<Near> triangles;
+  append_parts(parts, triangles);
+  sort_unique(triangles);
+  return triangles;
+}
+
+void list_triangles(const Mesh& mesh, MeshBorder& border) {
+  std::vector<Near> vertices, triangles;
+  for (std::uint32_t loop = 0; loop < border.loops.size(); ++loop)
+    for (const std::uint32_t vertex : border.loops[loop]) vertices.push_back({vertex, loop});
+  for (int ring = 0; ring < 2; ++ring) {
+    sort_unique(vertices);
+    triangles = triangles_at(mesh, vertices);
+    for (const Near& triangle : triangles)
+      for (const std::uint32_t v : mesh.triangles[triangle.item]) vertices.push_back({v, triangle.loop});
   }
+  border.triangles.assign(border.loops.size(), {});
+  for (const Near& triangle : triangles) border.triangles[triangle.loop].push_back(triangle.item);
 }
 
 }  // namespace

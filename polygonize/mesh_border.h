@@ -12,7 +12,7 @@ namespace cambium {
 struct MeshBorder {
   /// Closed, each from its lowest vertex, in the direction in which the sides of triangles run there.
   std::vector<std::vector<std::uint32_t>> loops;
-  /// By loop: the triangles that touch it and those that touch these, ascending; what is near two loops counts to one.
+  /// By loop: the triangles that touch it and those that touch these, ascending.
   std::vector<std::vector<std::uint32_t>> triangles;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kMostTurns = 0.35;      // that a triangle may reach around
+constexpr double kMostTurns = 0.42;      // that a triangle may reach around
 constexpr double kClear = 0.05;          // in radii: of an open end from the plane of the ring
 constexpr double kHardlyBent = 0.9999;   // cosine between neighbouring segments
 constexpr double kChordShares[] = {0.75, 0.2, 0.05};   // of the tolerance: what the surface may stand out over a chord
@@ -26,9 +26,13 @@ TubeJoin::TubeJoin(const ChainPath& path, const TubeRing& ring, bool at_end, con
   if (at_end) ring_.along = -ring.along;
 }
 
-TubeJoin::Unrolled TubeJoin::unrolled(const Vec3& p) const {
+double TubeJoin::nearest(const Vec3& p) const {
   const double reach = 4 * radius_ + glm::distance(p, ring_.center);
-  const double s = path_.nearest(p, path_.segment_at(ring_.at - reach), path_.segment_at(ring_.at + reach));
+  return path_.nearest(p, path_.segment_at(ring_.at - reach), path_.segment_at(ring_.at + reach));
+}
+
+TubeJoin::Unrolled TubeJoin::unrolled(const Vec3& p) const {
+  const double s = nearest(p);
   const Vec3 out = p - path_.point(s);
   return {std::atan2(glm::dot(out, glm::cross(ring_.along, ring_.side)), glm::dot(out, ring_.side)), at_end_ ? ring_.at - s : s - ring_.at, out};
 }
@@ -136,6 +140,39 @@ bool TubeJoin::is_graph() const {
       return glm::dot(normal, unrolled(mesh_.positions[v]).outwards) > 0;
     });
   });
+}
+
+std::vector<TubeJoin::Eased> TubeJoin::eased() const {
+  std::vector<std::uint32_t> vertices;
+  const auto touches = [](const Triangle& triangle, std::uint32_t v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); };
+  for (const std::uint32_t t : triangles_) {
+    const Triangle& triangle = mesh_.triangles[t];
+    if (std::any_of(loop_.begin(), loop_.end(), [&](std::uint32_t v) { return touches(triangle, v); })) {
+      vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::vector<Eased> result;
+  for (const std::uint32_t vertex : vertices) {
+    Vec3 sum(0.0);
+    double corners = 0;
+    for (const std::uint32_t t : triangles_) {
+      if (!touches(mesh_.triangles[t], vertex)) continue;
+      for (const std::uint32_t v : mesh_.triangles[t]) sum += mesh_.positions[v], ++corners;
+    }
+    const Vec3 middle = sum / corners;
+    const double s = nearest(middle);
+    result.push_back({vertex, path_.surface(s, glm::normalize(middle - path_.point(s)))});
+  }
+  return result;
+}
+
+bool TubeJoin::is_untangled() const {
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    for (std::size_t j = i + 1; j < triangles_.size(); ++j)
+      if (triangles_meet_wrongly(mesh_.positions, mesh_.triangles[triangles_[i]], mesh_.triangles[triangles_[j]])) return false;
+  return true;
 }
 
 // Exactly: what was added against itself, against the mesh at the open end, and against the tube's walls at the ring, which begins

@@ -38,6 +38,16 @@ class TubeJoin {
   /// would meet another triangle than those it shares a corner or a side with.
   bool add_to(Tube& tube, std::uint32_t first) const;
 
+  struct Eased {
+    std::uint32_t vertex = 0;
+    ChainPath::SurfacePoint to;
+  };
+  /// The vertices of all triangles that touch the end's line, ascending, each in the middle of those it shares a triangle with, on the
+  /// chain's surface.
+  std::vector<Eased> eased() const;
+  /// Whether no two triangles at the end meet but in what they share.
+  bool is_untangled() const;
+
  private:
   struct Unrolled {
     double angle = 0, z = 0;       // around the ring, and along the chain from it
@@ -52,6 +62,7 @@ class TubeJoin {
   bool keeps_to_surface(const Tube& tube, std::size_t begin) const;
   bool is_graph() const;
   bool crosses(const Tube& tube, std::size_t begin, std::uint32_t first) const;
+  double nearest(const Vec3& p) const;
 
   const ChainPath& path_;
   TubeRing ring_;

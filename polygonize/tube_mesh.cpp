@@ -7,19 +7,19 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <cstdio>
 
 namespace cambium {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::size_t kRunsPerTask = 8;
-constexpr int kMostLeftOut = 2;   // rings
 
 struct BuiltTube {
   Tube tube;
   double largest_error = 0;
-  bool begins = false, sound = false;   // joined where it begins; at both ends
+  std::array<bool, 2> joined{false, false};   // at its ends
+  bool sound() const { return joined[0] && joined[1]; }
 };
 
 /// Of a run: the loop at its begin and at its end.
@@ -33,43 +33,39 @@ class TubeBuilder {
   TubeBuilder(const TubeRuns& runs, const MeshBorder& border, double tolerance, const Mesh& mesh)
       : runs_(runs), border_(border), tolerance_(tolerance), mesh_(mesh) {}
 
-  /// Not sound if cancelled. Where the mesh does not join the first ring from an end it may join the next.
+  /// Not joined if cancelled.
   BuiltTube build(const TubeRun& run, const Ends& ends, const RunOptions& options) const {
     if (ends.count != std::array<int, 2>{1, 1}) return {};
-    std::span<const TubeRing> rings = run.rings;
-    for (int left_out = 0;; ++left_out) {
-      BuiltTube built = build_from(runs_.path(run), rings, ends, options);
-      if (built.sound || left_out == kMostLeftOut || rings.size() == 2 || options.cancelled()) return built;
-      rings = built.begins ? rings.first(rings.size() - 1) : rings.subspan(1);
-    }
-  }
-
- private:
-  BuiltTube build_from(const ChainPath& path, std::span<const TubeRing> rings, const Ends& ends, const RunOptions& options) const {
+    const ChainPath& path = runs_.path(run);
     BuiltTube built;
     Tube& tube = built.tube;
     std::vector<std::uint32_t> first;   // vertex of each ring
-    for (const TubeRing& ring : rings) {
+    for (const TubeRing& ring : run.rings) {
       if (options.cancelled()) return built;
       for (std::uint32_t k = 0; k < ring.sides; ++k) {
         const std::uint32_t vertex = tube.add(ring_corner(path, ring, k));
         if (k == 0) first.push_back(vertex);
       }
     }
-    for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < run.rings.size(); ++i) {
       const std::size_t begin = tube.triangles.size();
-      add_wall(first[i], rings[i].sides, first[i + 1], rings[i + 1].sides, tube.triangles);
-      measure(path, begin, (rings[i].at + rings[i + 1].at) / 2, built);
+      add_wall(first[i], run.rings[i].sides, first[i + 1], run.rings[i + 1].sides, tube.triangles);
+      measure(path, begin, (run.rings[i].at + run.rings[i + 1].at) / 2, built);
     }
     const std::size_t walls = tube.triangles.size();
-    built.begins = TubeJoin(path, rings.front(), false, mesh_, border_, ends.loops[0], tolerance_).add_to(tube, first.front());
-    measure(path, walls, rings.front().at, built);
+    built.joined[0] = join(run, ends, 0).add_to(tube, first.front());
+    measure(path, walls, run.rings.front().at, built);
     const std::size_t others = tube.triangles.size();
-    built.sound = built.begins && TubeJoin(path, rings.back(), true, mesh_, border_, ends.loops[1], tolerance_).add_to(tube, first.back());
-    measure(path, others, rings.back().at, built);
+    built.joined[1] = join(run, ends, 1).add_to(tube, first.back());
+    measure(path, others, run.rings.back().at, built);
     return built;
   }
 
+  TubeJoin join(const TubeRun& run, const Ends& ends, int end) const {
+    return {runs_.path(run), end ? run.rings.back() : run.rings.front(), end == 1, mesh_, border_, ends.loops[end], tolerance_};
+  }
+
+ private:
   // Whichever of the next corners comes first around is taken first.
   static void add_wall(std::uint32_t lower, std::uint32_t lower_sides, std::uint32_t upper, std::uint32_t upper_sides,
                        std::vector<Triangle>& triangles) {
@@ -119,6 +115,83 @@ std::vector<Ends> assign_loops(const SurfaceOctree& tree, const SurfaceCover& co
   return ends;
 }
 
+/// Smooths knots in the lines at the ends of tubes that failed: quicker than to contour what they stand for.
+class BorderEaser {
+ public:
+  BorderEaser(const SurfaceCover& cover, const Contour& contour, const MeshBorder& border, const TubeBuilder& builder, Mesh& mesh)
+      : cover_(cover), border_(border), builder_(builder), mesh_(mesh), fixed_(mesh.positions.size(), 0) {
+    for (std::size_t v = 0; v < contour.vertices.size(); ++v) fixed_[v] = contour.vertices[v].crease;
+    fix_between_loops();
+  }
+
+  /// Builds a tube again until it fits. If it never does the mesh is as it was.
+  void mend(const TubeRun& run, const Ends& ends, BuiltTube& built, const RunOptions& options) {
+    if (built.sound() || ends.count != std::array<int, 2>{1, 1}) return;
+    moved_.clear();
+    for (int round = 0; round < kMostEased && !built.sound() && !options.cancelled(); ++round) {
+      const bool untangled = ease_ends(run, ends, built.joined);
+      built = builder_.build(run, ends, options);
+      if (!untangled) built.joined = {false, false};
+    }
+    if (built.sound()) return;
+    for (auto was = moved_.rbegin(); was != moved_.rend(); ++was) {
+      mesh_.positions[was->vertex] = was->position;
+      mesh_.normals[was->vertex] = was->normal;
+    }
+  }
+
+ private:
+  struct Moved {   // with what it was
+    std::uint32_t vertex = 0;
+    Vec3 position{0.0};
+    glm::vec3 normal{0.0f};
+  };
+
+  // What is near two loops matters to two tubes.
+  void fix_between_loops() {
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::vector<std::uint32_t> loop_of(mesh_.positions.size(), kNone);
+    for (std::uint32_t loop = 0; loop < border_.loops.size(); ++loop)
+      for (const std::uint32_t t : border_.triangles[loop])
+        for (const std::uint32_t v : mesh_.triangles[t]) {
+          if (loop_of[v] != kNone && loop_of[v] != loop) fixed_[v] = 1;
+          loop_of[v] = loop;
+        }
+  }
+
+  bool ease_ends(const TubeRun& run, const Ends& ends, const std::array<bool, 2>& joined) {
+    bool untangled = true;
+    for (const int end : {0, 1}) {
+      if (joined[end]) continue;
+      const TubeJoin join = builder_.join(run, ends, end);
+      for (const auto& [vertex, to] : join.eased()) {
+        if (fixed_[vertex] || !is_surface(to.position)) continue;
+        moved_.push_back({vertex, mesh_.positions[vertex], mesh_.normals[vertex]});
+        mesh_.positions[vertex] = to.position;
+        mesh_.normals[vertex] = glm::vec3(to.normal);
+      }
+      untangled = untangled && join.is_untangled();
+    }
+    return untangled;
+  }
+
+  // Of the whole field, not just of the chain.
+  bool is_surface(const Vec3& p) {
+    const auto cell = cover_.find(p);
+    return cell && std::abs(evaluator_.value(cover_.cube_field(*cell), p) - kIso) < kRounding;
+  }
+
+  static constexpr int kMostEased = 4;         // times
+  static constexpr double kRounding = 1e-9;    // of values of the field
+  const SurfaceCover& cover_;
+  const MeshBorder& border_;
+  const TubeBuilder& builder_;
+  Mesh& mesh_;
+  std::vector<std::uint8_t> fixed_;            // by vertex: it may not move
+  Evaluator evaluator_;
+  std::vector<Moved> moved_;
+};
+
 }  // namespace
 
 std::optional<TubeReport> add_tubes(const SurfaceOctree& tree, const SurfaceCover& cover, const Contour& contour, const TubeRuns& runs,
@@ -138,9 +211,14 @@ std::optional<TubeReport> add_tubes(const SurfaceOctree& tree, const SurfaceCove
     }
   });
   if (run.cancelled()) return std::nullopt;
+  if (std::any_of(tubes.begin(), tubes.end(), [](const BuiltTube& tube) { return !tube.sound(); })) {
+    BorderEaser easer(cover, contour, border, builder, mesh);
+    for (std::size_t i = 0; i < tubes.size(); ++i) easer.mend(runs[i], ends[i], tubes[i], run);   // few need it
+  }
+  if (run.cancelled()) return std::nullopt;
   TubeReport report;
   for (std::uint32_t i = 0; i < tubes.size(); ++i)
-    if (!tubes[i].sound) report.failed.push_back(i);
+    if (!tubes[i].sound()) report.failed.push_back(i);
   if (!report.failed.empty()) return report;
   for (BuiltTube& built_tube : tubes) {
     const Tube tube = std::move(built_tube.tube);
