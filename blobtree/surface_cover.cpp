@@ -196,6 +196,7 @@ std::optional<SurfaceCover> cover_surface(const Field& field, const CoverOptions
   for (const double radii : {options.cell_radii, options.sparse_radii}) {
     if (!(radii > 0) || !std::isfinite(radii)) throw InputError({}, fmt::format("cells of {:g} radii", radii), "a finite number above 0");
   }
+  if (!(options.shared_radii > 0)) throw InputError({}, fmt::format("shared cells of {:g} radii", options.shared_radii), "a number above 0");
   if (!(options.sagitta > 0)) throw InputError({}, fmt::format("a sagitta of {:g} m", options.sagitta), "a length above 0");
   SurfaceCover cover;
   cover.tree_ = field.tree_;

@@ -15,7 +15,8 @@ struct TubeReport {
   double largest_error = 0;            ///< of a triangle, metres, where it was measured
 };
 
-/// Closes `built` (by build_polygons of that contour) with the runs' tubes, whose vertices and triangles are appended run by run.
+/// Closes `built` (by build_polygons of that contour) with the runs' tubes, whose vertices and triangles are appended run by run. Knots in
+/// the line of an open end that no tube fits are smoothed first, where that helps: vertices there move on the surface.
 /// Where the mesh near the ends is a graph over the chain's surface, as is looked at, and the lines to be joined are simple on the
 /// unrolled surface, no triangles meet but in what they share. nullopt if cancelled. In the current arena; the same at any thread
 /// count. Cost: a look at every triangle, and some microseconds a ring.

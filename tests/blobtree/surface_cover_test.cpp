@@ -6,6 +6,7 @@
 #include "blobtree/surface_cover.h"
 
 #include "blobtree/input_error.h"
+#include "blobtree/lone_chain.h"
 #include "random_blobtrees.h"
 #include "strained_blobtrees.h"
 
@@ -369,6 +370,27 @@ TEST(SurfaceCover, CellsFollowTheRadius) {
   EXPECT_LT(cover.size(), 2000u);
 }
 
+TEST(SurfaceCover, CellsMayBeSmallerWhereSeveralPrimitivesMeet) {
+  BlobTreeBuilder b;
+  const NodeId twig = b.add(Chain{{{{0, 0, 0}, 0.01}, {{0, 0, 0.5}, 0.01}}});
+  const NodeId shoot = b.add(Chain{{{{0, 0, 0.25}, 0.01}, {{0.3, 0, 0.4}, 0.01}}});
+  const Field field(b.build(b.add(Sum{{twig, shoot}})));
+  CoverOptions options;
+  const SurfaceCover plain = *cover_surface(field, options, {});
+  options.shared_radii = 0.8;
+  const SurfaceCover finer = *cover_surface(field, options, {});
+  const auto largest = [](const SurfaceCover& cover, bool shared) {
+    double edge = 0;
+    for (std::size_t i = 0; i < cover.size(); ++i) {
+      if (LoneChain::of(cover.cube_field(i)).has_value() != shared) edge = std::max(edge, cover.cube(i).size().x);
+    }
+    return edge;
+  };
+  EXPECT_GT(largest(plain, true), 0.008);
+  EXPECT_LE(largest(finer, true), 0.008);
+  EXPECT_EQ(largest(finer, false), largest(plain, false));
+}
+
 TEST(SurfaceCover, MemoryFollowsTheSurfaceAndNotTheVolume) {
   const Field ball = field_of(Sphere{{0.013, 0.02, 0.031}, 1, 1});
   double cells = 0, bytes = 0;
@@ -451,6 +473,11 @@ TEST(SurfaceCover, RefusesSizesThatCannotBe) {
     CoverOptions following;
     following.cell_radii = radii;
     EXPECT_THROW(cover_surface(field, following, {}), InputError) << radii;
+  }
+  for (const double shared : {0.0, -1.0, std::nan("")}) {
+    CoverOptions following;
+    following.shared_radii = shared;
+    EXPECT_THROW(cover_surface(field, following, {}), InputError) << shared;
   }
   for (const double sagitta : {0.0, -1.0, std::nan("")}) {
     CoverOptions following;

@@ -119,9 +119,9 @@ TEST(TubeMesh, ATrunkAmongItsTwigsIsJoinedToo) {
   expect_as_promised(field, made->mesh, 0.001);
 }
 
-// One such twig in two hundred has an end that a tube does not fit, at one of these tolerances.
+// One such twig in a hundred has an end that a tube does not fit, at one of these tolerances.
 TEST(TubeMesh, AStretchWhoseTubeDoesNotFitIsContouredInstead) {
-  const std::pair<unsigned, double> misfits[] = {{2, 0.001}, {1087, 0.001}, {1223, 0.0005}};
+  const std::pair<unsigned, double> misfits[] = {{151, 0.0005}, {291, 0.001}, {316, 0.0003}};
   for (const auto& [seed, tolerance] : misfits) {
     SCOPED_TRACE(seed);
     const Field field = shooting_twig(seed);
@@ -132,7 +132,7 @@ TEST(TubeMesh, AStretchWhoseTubeDoesNotFitIsContouredInstead) {
 }
 
 TEST(TubeMesh, SameBytesForAnyNumberOfThreads) {
-  for (const Field& field : {forked_twig(), shooting_twig(1223)}) {
+  for (const Field& field : {forked_twig(), shooting_twig(151), shooting_twig(1223)}) {
     const auto with = [&](int threads) {
       RunOptions run;
       run.threads = threads;

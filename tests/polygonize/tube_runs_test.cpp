@@ -94,7 +94,7 @@ TEST(TubeRuns, EndsAreFoundByPlace) {
 }
 
 TEST(TubeRuns, WhatIsShortHasNone) {
-  EXPECT_EQ(Model(single(Chain{{{{0, 0, 0}, 0.003}, {{0, 0, 0.014}, 0.003}}})).runs.size(), 0u);
+  EXPECT_EQ(Model(single(Chain{{{{0, 0, 0}, 0.003}, {{0, 0, 0.009}, 0.003}}})).runs.size(), 0u);
   EXPECT_EQ(Model(single(Chain{{{{0, 0, 0}, 0.003}, {{0, 0, 0.2}, 0.003}}, 0.8})).runs.size(), 0u);   // its surface is elsewhere
 }
 
