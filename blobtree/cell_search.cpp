@@ -75,11 +75,18 @@ class CellSearch {
     return radius;
   }
 
-  /// How many more levels a region of these atoms is expected to be cut by. lone: they are of one primitive.
-  int height(int level, std::size_t count, double smallest, bool lone) const {
+  /// Whether in the region of a tape a chain is active, and something else.
+  static bool shares_chain(const Tape& tape) {
+    const auto instructions = tape.instructions();
+    return instructions.size() > 1 &&
+           std::any_of(instructions.begin(), instructions.end(), [](const Instruction& in) { return in.op == Op::kChain && in.frame == 0; });
+  }
+
+  /// How many more levels a region of these atoms is expected to be cut by. shared: as shares_chain().
+  int height(int level, std::size_t count, double smallest, bool shared = false) const {
     if (!(rule_.radii > 0) || level == 0) return level;
     const double most = count <= rule_.sparse_atoms ? rule_.sparse_radii : rule_.radii;
-    const double radii = lone ? most : std::min(most, rule_.shared_radii);
+    const double radii = shared ? std::min(most, rule_.shared_radii) : most;
     const double limit = smallest < kInfinity ? std::min(smallest * radii, std::sqrt(rule_.sagitta * smallest))
                                               : std::ldexp(grid_.cell, grid_.levels - 6);
     const double edge = std::ldexp(grid_.cell, level);
@@ -110,7 +117,7 @@ class CellSearch {
   void shared_region(const CellPlace& place, int level, ActiveAtoms active, double share) {
     if (stopped()) return;
     if (active.empty()) return tell(share);
-    const int levels_below = height(level, active.size(), smallest_radius(active.atoms), true);
+    const int levels_below = height(level, active.size(), smallest_radius(active.atoms));
     if (levels_below == 0 || (active.size() <= kAtomsWorthSharing && levels_below <= rule_.task_height)) {
       const std::unique_ptr<CellRun> run = make_run_();
       region(scratches_.local(), *run, place, level, active, -1);
@@ -161,11 +168,11 @@ class CellSearch {
     if (stopped()) return;
     const Box box = grid_.box(place, level);
     const bool few = active.size() <= kAtomsWorthBounding;
-    bool leaf = level == 0 || (!few && height(level, active.size(), smallest_radius(active.atoms), false) == 0);
+    bool leaf = level == 0 || (!few && height(level, active.size(), smallest_radius(active.atoms)) == 0);
     if (few || leaf) {
       if (!can_hold(s, active, box, level, tape_level)) return;
       const Tape& tape = *s.tapes[tape_level];
-      leaf = leaf || height(level, active.size(), tape.smallest_radius(), tape.instructions().size() == 1) == 0;
+      leaf = leaf || height(level, active.size(), tape.smallest_radius(), shares_chain(tape)) == 0;
       if (leaf) {
         run.found(s.evaluator, {place, level, box, PrunedField(tree_, tape, nullptr, box), tape_level, s.serials[tape_level]});
         return;

@@ -29,7 +29,7 @@ struct CellRule {
   double radii = 0;                ///< longest edge where many primitives meet; 0: level 0
   double sparse_radii = 0;         ///< the same where at most sparse_atoms are active
   std::size_t sparse_atoms = 0;
-  double shared_radii = kInfinity; ///< and no longer than this where more than one primitive is active
+  double shared_radii = kInfinity; ///< and no longer than this where a chain is active, not warped, beside something else
   double sagitta = kInfinity;      ///< and no longer than sqrt(sagitta * radius), metres
   int task_height = 2;             ///< higher subtrees are shared out to threads; larger, the cheaper a visit is
 };

@@ -20,7 +20,7 @@ struct CoverOptions {
   double cell_radii = 1.6;
   double sparse_radii = 8;
   std::size_t sparse_atoms = 4;
-  /// Where more than one primitive is active, also no longer than this: then more cells hold one alone.
+  /// Where a chain is active, not warped, beside something else, also no longer than this: then more cells hold one chain alone.
   double shared_radii = kInfinity;
   /// And nowhere more than sqrt(sagitta * smallest active radius), metres. Infinite: no such limit.
   double sagitta = kInfinity;

@@ -370,7 +370,7 @@ TEST(SurfaceCover, CellsFollowTheRadius) {
   EXPECT_LT(cover.size(), 2000u);
 }
 
-TEST(SurfaceCover, CellsMayBeSmallerWhereSeveralPrimitivesMeet) {
+TEST(SurfaceCover, CellsMayBeSmallerWhereChainsMeetOthers) {
   BlobTreeBuilder b;
   const NodeId twig = b.add(Chain{{{{0, 0, 0}, 0.01}, {{0, 0, 0.5}, 0.01}}});
   const NodeId shoot = b.add(Chain{{{{0, 0, 0.25}, 0.01}, {{0.3, 0, 0.4}, 0.01}}});
