@@ -18,7 +18,6 @@
 namespace cambium {
 namespace {
 
-constexpr std::size_t kMostNodesOfLevel = 200'000'000;
 constexpr std::size_t kMostLevels = 255;
 
 /// What streams of a level and of its subgraphs are drawn from for.
@@ -33,6 +32,16 @@ struct Subgraph {
   std::optional<LifespanDecrement> decrement = {};   ///< of all its endpoints; unset: each draws its own
   std::uint64_t stream = 0;
 };
+
+/// Whether p is in the volume, on its surface, or not farther from it than a hundredth of its size.
+bool is_near(const GraphVolume& volume, const Vec3& p) {
+  if (volume.contains(p)) return true;
+  const double size = glm::length(volume.bounds().size());
+  for (const Vec3& direction : yao_directions(64))
+    for (const double far : {0.001, 0.01})
+      if (volume.contains(p + far * size * direction)) return true;
+  return false;
+}
 
 /// Plans what is above the ground or what is below.
 class Planner {
@@ -106,6 +115,7 @@ class Planner {
     const auto paths = plan_graph({&volume, options_.root, &rules, endpoints, rules.shell, hash_of(stream, kFirstGraph)}, rules_, run_);
     if (!paths) return false;
     if (paths->nodes < 2) throw InputError({}, "volume: no room for a node beside the root", "a volume that is not all obstacle, or a smaller d");
+    if (!is_near(volume, options_.root)) throw InputError({}, "root: a place outside of the volume", "one in it or on its surface");
     if (paths->endpoints_missing > 0)
       throw InputError({}, "level 1: b = " + std::to_string(endpoints) + " endpoints, but " + std::to_string(paths->endpoints.size()) + " nodes where one may be",
                        "fewer endpoints, more nodes (k), or a thicker shell (d_e)");
@@ -172,12 +182,7 @@ class Planner {
     }
   }
 
-  void check_size(std::size_t level, std::size_t graphs) const {
-    const std::size_t nodes = level_rules(level).nodes;
-    if (graphs > kMostNodesOfLevel / nodes)
-      throw InputError({}, "level " + std::to_string(level) + ": " + std::to_string(graphs) + " graphs of k = " + std::to_string(nodes) + " nodes",
-                       "at most 2*10^8 nodes in a level: fewer nodes (k), or fewer endpoints (b) in the levels before");
-  }
+  void check_size(std::size_t level, std::size_t graphs) const { check_level_size(level, static_cast<double>(graphs), level_rules(level).nodes); }
 
   /// Plans the level's graphs side by side and joins them in their order, so many at a time that what waits stays small.
   bool grow_level(std::size_t level, const std::vector<Subgraph>& subgraphs) {

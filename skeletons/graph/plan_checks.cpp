@@ -3,6 +3,7 @@
 #include "skeletons/graph/lifespan.h"
 #include "skeletons/graph/subgraph.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cambium {
@@ -89,7 +90,31 @@ void check_roots(const GraphOptions& options) {
   }
 }
 
+/// Refused before the levels before it are grown: a level that will be too large if every graph has the fewest endpoints it may.
+void check_growth(const GraphOptions& options) {
+  const bool all_live = options.lifespan.outcomes.size() == 1 && options.lifespan.outcomes[0].high <= 1 && !options.lifespan.outcomes[0].relative;
+  if (options.obstacles || !all_live) return;   // some graphs may have none
+  double tips = 1, all_tips = 0;
+  const double last = options.lifespan.initial ? std::ceil(*options.lifespan.initial) + 1 : static_cast<double>(options.levels.size());
+  for (std::size_t level = 1; static_cast<double>(level) <= last; ++level) {
+    const GraphLevel& rules = options.levels[std::min(level, options.levels.size()) - 1];
+    const double graphs = level > 1 && rules.around_all ? all_tips : tips;
+    check_level_size(level, graphs, rules.nodes);
+    if (rules.endpoints[0] <= 1 && level >= options.levels.size()) return;   // it does not grow any more
+    tips = graphs * rules.endpoints[0] + (level == 1 ? static_cast<double>(rules.given_endpoints.size()) : 0.0);
+    all_tips += tips;
+  }
+}
+
 }  // namespace
+
+void check_level_size(std::size_t level, double graphs, std::size_t nodes) {
+  constexpr double kMostNodesOfLevel = 2e8;
+  if (graphs * static_cast<double>(nodes) <= kMostNodesOfLevel) return;
+  const std::string count = std::to_string(static_cast<std::uint64_t>(std::min(graphs, 1e18)));
+  throw InputError({}, "level " + std::to_string(level) + ": " + count + " graphs of k = " + std::to_string(nodes) + " nodes",
+                   "at most 2*10^8 nodes in a level: fewer nodes (k), or fewer endpoints (b) in the levels before");
+}
 
 void check_plan(const GraphOptions& options) {
   require(std::isfinite(glm::dot(options.root, options.root)), "root: a place that is not finite", "a finite one");
@@ -110,6 +135,7 @@ void check_plan(const GraphOptions& options) {
   naming("thickness", [&] { check_thickness(options.thickness); });
   require(options.smoothing >= 0 && options.smoothing <= 10'000, "smoothing = " + std::to_string(options.smoothing), "0 to 10000 passes");
   check_roots(options);
+  check_growth(options);
 }
 
 }  // namespace cambium

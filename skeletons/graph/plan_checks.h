@@ -10,6 +10,9 @@ namespace cambium {
 /// volume is made.
 void check_plan(const GraphOptions& options);
 
+/// Errors: InputError for a level whose graphs have more nodes in all than a machine would hold on to.
+void check_level_size(std::size_t level, double graphs, std::size_t nodes);
+
 /// Calls make() and puts `where` in front of what an InputError of it found.
 template <class Make>
 auto naming(const std::string& where, Make&& make) {

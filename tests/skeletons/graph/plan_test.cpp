@@ -313,6 +313,15 @@ TEST(Plan, RefusesWhatHasNoRoomByTheKeyThatSaysSo) {
   EXPECT_EQ(refusal_of(options).substr(0, 15), "level 1: b = 9 ");
 
   options = small_tree();
+  options.root = {0, 0, -1};
+  EXPECT_EQ(refusal_of(options).substr(0, 5), "root:");
+
+  options = small_tree();
+  options.levels[2].endpoints = {50, 50};
+  options.lifespan.initial = 20;
+  EXPECT_EQ(refusal_of(options), "level 6: 5625000 graphs of k = 60 nodes") << "at once, not when it is reached";
+
+  options = small_tree();
   options.levels[1].nodes = 90'000'000;
   EXPECT_EQ(refusal_of(options).substr(0, 17), "level 2: 9 graphs");
 }
