@@ -1,6 +1,7 @@
 #include "skeletons/graph/component_repair.h"
 
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -12,7 +13,7 @@ constexpr std::uint32_t kNone = 0xffffffff;
 constexpr std::uint32_t kMixed = kNone;
 constexpr std::uint32_t kLeaf = 16;            // nodes
 constexpr double kAllowedReach = 8;            // spacings
-constexpr std::size_t kPollEvery = 1024;       // searches
+constexpr std::size_t kPollSearches = 1024, kPollNodes = 65536;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -22,9 +23,11 @@ struct Components {
   std::uint32_t count = 0;
 };
 
-Components components_of(const NodeGraph& graph) {
+/// Nullopt if cancelled.
+std::optional<Components> components_of(const NodeGraph& graph, const RunOptions& run) {
   Components components{std::vector<std::uint32_t>(graph.nodes(), kNone)};
   std::vector<std::uint32_t> waiting;
+  std::size_t seen = 0;
   for (std::uint32_t start = 0; start < graph.nodes(); ++start) {
     if (components.of[start] != kNone) continue;
     const std::uint32_t component = components.count++;
@@ -33,6 +36,7 @@ Components components_of(const NodeGraph& graph) {
     while (!waiting.empty()) {
       const std::uint32_t u = waiting.back();
       waiting.pop_back();
+      if (++seen % kPollNodes == 0 && run.cancelled()) return std::nullopt;
       for (const std::uint32_t v : graph.of(u))
         if (components.of[v] == kNone) components.of[v] = component, waiting.push_back(v);
     }
@@ -51,7 +55,8 @@ struct Link {
 /// the nearest node that is of another (a k-d tree in the manner of minimum spanning trees; Bentley and Friedman 1978).
 class StrangerTree {
  public:
-  explicit StrangerTree(std::span<const Vec3> positions) : positions_(positions), order_(positions.size()) {
+  /// Cancelled, it is of no use.
+  StrangerTree(std::span<const Vec3> positions, const RunOptions& run) : positions_(positions), run_(run), order_(positions.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
     halve(0, static_cast<std::uint32_t>(order_.size()));
   }
@@ -88,7 +93,7 @@ class StrangerTree {
     Half half{{}, begin, end};
     for (std::uint32_t k = begin; k < end; ++k) half.box.extend(positions_[order_[k]]);
     halves_.push_back(half);
-    if (end - begin <= kLeaf) return index;
+    if (end - begin <= kLeaf || run_.cancelled()) return index;
     const Vec3 size = half.box.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
@@ -125,6 +130,7 @@ class StrangerTree {
   }
 
   std::span<const Vec3> positions_;
+  const RunOptions& run_;
   std::span<const std::uint32_t> component_;
   std::vector<std::uint32_t> order_;
   std::vector<Half> halves_;
@@ -141,7 +147,7 @@ bool links_out(const Components& components, const StrangerTree& tree, double bo
   for (std::uint32_t u = 0; u < components.of.size(); ++u) {
     const std::uint32_t c = components.of[u];
     if (!wanted[c]) continue;
-    if (++searches % kPollEvery == 0 && run.cancelled()) return false;
+    if (++searches % kPollSearches == 0 && run.cancelled()) return false;
     tree.shorten(u, links[c], allow);
   }
   return true;
@@ -194,9 +200,12 @@ void add_edges(NodeGraph& graph, const std::vector<Edge>& edges) {
 }  // namespace
 
 bool reach_all(NodeGraph& graph, const JoinRules& rules, double spacing, const RunOptions& run) {
-  Components components = components_of(graph);
+  std::optional<Components> found = components_of(graph, run);
+  if (!found) return false;
+  Components components = std::move(*found);
   if (components.count <= 1) return !run.cancelled();
-  StrangerTree tree(rules.positions);
+  StrangerTree tree(rules.positions, run);
+  if (run.cancelled()) return false;
   std::vector<Edge> added;
   while (components.count > 1) {
     tree.set_components(components.of);

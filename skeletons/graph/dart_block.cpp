@@ -2,6 +2,7 @@
 
 #include "blobtree/place_hash.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -172,17 +173,24 @@ void DartBlock::halve_all(int level) {
   for (const Place& place : places_) {
     const int x = place.x >> level, y = place.y >> level, z = place.z >> level;
     if (has_node(x, y, z)) continue;
+    // What holds all of a half holds the middle of the whole, which is a corner of it.
+    const Vec3 middle = corner_ + side * Vec3(2 * place.x + 1, 2 * place.y + 1, 2 * place.z + 1);
+    over_middle_.clear();
+    first_near(x, y, z, [&](std::uint16_t node) {
+      if (too_near(middle, node)) over_middle_.push_back(node);
+      return false;
+    });
     for (int i = 0; i < 8; ++i) {
-      Place half;
+      const Vec3 half_middle = middle + 0.5 * side * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+      const Vec3 lo = half_middle - 0.5 * side;
+      if (lo.x >= lattice_.hi.x || lo.y >= lattice_.hi.y || lo.z >= lattice_.hi.z) continue;
+      const auto holds_half = [&](std::uint16_t node) { return covers(node, half_middle, 0.5 * side); };
+      if (std::any_of(over_middle_.begin(), over_middle_.end(), holds_half)) continue;
+      Place half{.blocker = place.blocker};
       half.x = static_cast<std::int16_t>(2 * place.x + (i & 1));
       half.y = static_cast<std::int16_t>(2 * place.y + (i >> 1 & 1));
       half.z = static_cast<std::int16_t>(2 * place.z + (i >> 2));
-      half.blocker = place.blocker;
-      const Vec3 lo = corner_ + side * Vec3(half.x, half.y, half.z);
-      if (lo.x >= lattice_.hi.x || lo.y >= lattice_.hi.y || lo.z >= lattice_.hi.z) continue;
-      const auto covers_half = [&](std::uint16_t node) { return covers(node, lo + 0.5 * side, 0.5 * side); };
-      if (half.blocker != kEnd && covers_half(half.blocker)) continue;
-      if (first_near(x, y, z, covers_half) == kEnd) halves_.push_back(half);
+      halves_.push_back(half);
     }
   }
   places_.swap(halves_);

@@ -86,6 +86,7 @@ class DartBlock {
   std::vector<Vec3> near_;
   std::vector<std::uint16_t> before_;                    // of near_, the one before it in its cell
   std::vector<Place> places_, halves_;
+  std::vector<std::uint16_t> over_middle_;               // scratch of halve_all: nodes whose balls hold a place's middle
 };
 
 }  // namespace cambium

@@ -14,7 +14,7 @@ constexpr std::size_t kFewInside = 128;                       // then a look at 
 constexpr std::size_t kMostSamples = std::size_t{1} << 18;
 constexpr std::size_t kTooFewInside = 16;                     // of the most: what an obstacle left over, too little to grow in
 constexpr std::size_t kLeastOfSolid = 64;                     // samples
-constexpr std::size_t kBallSamples = 256;
+constexpr std::size_t kBallSamples = 512;
 constexpr double kSamplesInCell = 4;                          // on average, of cells with any
 
 double volume_of(const Box& box) {
@@ -22,9 +22,16 @@ double volume_of(const Box& box) {
   return size.x * size.y * size.z;
 }
 
-/// In the unit ball, evenly.
+/// The digits of i behind the point, turned round: places of [0, 1) that fill it evenly (van der Corput 1935).
+double turned_round(std::size_t i, std::size_t base) {
+  double place = 0, step = 1;
+  for (; i > 0; i /= base) place += static_cast<double>(i % base) * (step /= static_cast<double>(base));
+  return place;
+}
+
+/// In the unit ball, evenly (Halton 1960); not by the sequence that spreads places over the volume, or the two would go together.
 Vec3 place_in_ball(std::size_t i) {
-  const Vec3 u = spread_place(i);
+  const Vec3 u{turned_round(i + 1, 2), turned_round(i + 1, 3), turned_round(i + 1, 5)};
   const double z = 2 * u.x - 1, turn = 2 * std::numbers::pi * u.y, across = std::sqrt(1 - z * z);
   return std::cbrt(u.z) * Vec3{across * std::cos(turn), across * std::sin(turn), z};
 }

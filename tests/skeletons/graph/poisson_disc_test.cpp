@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 namespace cambium {
 namespace {
@@ -148,11 +150,18 @@ TEST(PoissonDisc, SettingsThatAskForNothingOrTooMuchAreRefused) {
   EXPECT_THROW(strewn(ball(1), {.count = std::size_t{1} << 32}), InputError);
 }
 
-TEST(PoissonDisc, CancellingStopsIt) {
+TEST(PoissonDisc, CancellingStopsItBeforeItBeginsOrOnTheWay) {
   std::atomic<bool> cancel = true;
   RunOptions run;
   run.cancel = &cancel;
   EXPECT_FALSE(poisson_disc(ball(1), {}, {.count = 1000000}, run));
+  cancel = false;
+  std::thread canceller([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    cancel = true;
+  });
+  EXPECT_FALSE(poisson_disc(ball(1), {}, {.count = 10000000}, run));
+  canceller.join();
 }
 
 }  // namespace
