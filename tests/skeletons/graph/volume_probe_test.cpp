@@ -36,7 +36,8 @@ TEST(VolumeProbe, LeavesOutObstacles) {
 }
 
 TEST(VolumeProbe, ShareOfABallFallsFromOneAsTheBallOutgrowsTheVolume) {
-  const VolumeProbe probe(ball(1), 4096);
+  const GraphVolume volume = ball(1);
+  const VolumeProbe probe(volume, 4096);
   EXPECT_GT(probe.share_of_ball(1e-3), 0.99);
   EXPECT_NEAR(probe.share_of_ball(0.1), 1 - 3.0 / 16 * 3 * 0.1, 0.02);   // 1 - 3/16 of surface times radius over volume
   EXPECT_NEAR(probe.share_of_ball(10), 1e-3, 5e-3);
