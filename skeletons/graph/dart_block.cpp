@@ -60,12 +60,11 @@ GroupBits group_of(const DartLattice& lattice, const std::array<int, 3>& cube, c
 GroupBits grown(const std::array<GroupBits, 27>& around) {
   const GroupRows rows = rows_of(around);
   GroupBits groups = 0;
-  for (std::size_t z = 0; z < kGroups; ++z)
-    for (std::size_t y = 0; y < kGroups; ++y) {
-      unsigned row = 0;
-      for (std::size_t dz = 0; dz < 3; ++dz)
-        for (std::size_t dy = 0; dy < 3; ++dy) row |= rows[z + dz][y + dy];
-      groups |= GroupBits{(row >> 1 | row | row << 1) >> 1 & kRowMask} << (z * kGroups + y) * kGroups;
+  for (std::size_t z = 1; z <= kGroups; ++z)
+    for (std::size_t y = 1; y <= kGroups; ++y) {
+      const unsigned row = rows[z][y];
+      const unsigned all = row >> 1 | row | row << 1 | rows[z - 1][y] | rows[z + 1][y] | rows[z][y - 1] | rows[z][y + 1];
+      groups |= GroupBits{all >> 1 & kRowMask} << ((z - 1) * kGroups + y - 1) * kGroups;
     }
   return groups;
 }
@@ -196,26 +195,29 @@ void DartBlock::halve_all(int level) {
   places_.swap(halves_);
 }
 
-void DartBlock::find_places(GroupBits groups) {
+void DartBlock::find_places(const DartTargets& targets) {
   places_.clear();
   for (int i = 0; i < kCells * kCells * kCells; ++i) {
     const int c = i * kStep % (kCells * kCells * kCells);
     const int x = c % kCells, y = c / kCells % kCells, z = c / (kCells * kCells);
-    if (!(groups >> ((z / 2 * kGroups + y / 2) * kGroups + x / 2) & 1) || has_node(x, y, z)) continue;
+    const GroupBits group = GroupBits{1} << ((z / 2 * kGroups + y / 2) * kGroups + x / 2);
+    if (!((targets.likely | targets.possible) & group) || has_node(x, y, z)) continue;
     const Vec3 lo = corner_ + lattice_.cell * Vec3(x, y, z);
-    if (lo.x <= lattice_.hi.x && lo.y <= lattice_.hi.y && lo.z <= lattice_.hi.z)
-      places_.push_back({.x = static_cast<std::int16_t>(x), .y = static_cast<std::int16_t>(y), .z = static_cast<std::int16_t>(z)});
+    if (lo.x > lattice_.hi.x || lo.y > lattice_.hi.y || lo.z > lattice_.hi.z) continue;
+    Place place{.x = static_cast<std::int16_t>(x), .y = static_cast<std::int16_t>(y), .z = static_cast<std::int16_t>(z)};
+    if (!(targets.likely & group)) place.darts = place.outside = 1;   // one miss fewer
+    places_.push_back(place);
   }
 }
 
-void DartBlock::fill(std::uint64_t seed, GroupBits groups, int misses, std::vector<Vec3>& nodes) {
+void DartBlock::fill(std::uint64_t seed, const DartTargets& targets, std::vector<Vec3>& nodes) {
   seed_ = seed;
   drawn_ = 0;
-  find_places(groups);
-  throw_at_all(0, kDarts, misses, nodes);
+  find_places(targets);
+  throw_at_all(0, kDarts, targets.misses, nodes);
   for (int level = 1; level <= halvings_; ++level) {
     halve_all(level - 1);
-    throw_at_all(level, kDartsAtHalf, misses / 2, nodes);
+    throw_at_all(level, kDartsAtHalf, std::max(1, targets.misses / 2), nodes);
   }
 }
 

@@ -37,8 +37,15 @@ GroupBits groups_inside(const GraphVolume& volume, const DartLattice& lattice, c
 /// The group that p, in the cube or at its surface, is in.
 GroupBits group_of(const DartLattice& lattice, const std::array<int, 3>& cube, const Vec3& p);
 
-/// The groups of a cube beside one that is set, or set themselves; from those of the 27 cubes around it, x fastest.
+/// The groups of a cube that are set or have a face in common with one that is; from those of the 27 cubes around it, x fastest.
 GroupBits grown(const std::array<GroupBits, 27>& around);
+
+/// What of a cube darts are thrown at.
+struct DartTargets {
+  GroupBits likely = 0;                ///< groups that hold some of the volume
+  GroupBits possible = 0;              ///< that may: a dart fewer is thrown at each of their cells
+  int misses = 2;                      ///< >= 2; so many darts are thrown at a cell where all fall beside the volume
+};
 
 /// One cube's nodes and those beside it, by cell. Made once for each thread, and used for one cube after the other.
 class DartBlock {
@@ -49,9 +56,8 @@ class DartBlock {
   void open(const std::array<int, 3>& cube);
   /// Nodes that are there already, in the cube or near it; others are ignored.
   void add(std::span<const Vec3> nodes);
-  /// Appends the nodes that fit in besides, in those groups of cells. Throws as many as `misses` darts that fall beside the volume at a
-  /// cell. Draws from the stream `seed` alone.
-  void fill(std::uint64_t seed, GroupBits groups, int misses, std::vector<Vec3>& nodes);
+  /// Appends the nodes that fit in besides. Draws from the stream `seed` alone.
+  void fill(std::uint64_t seed, const DartTargets& targets, std::vector<Vec3>& nodes);
 
  private:
   static constexpr int kSide = DartLattice::kCells + 2 * DartLattice::kReach;
@@ -64,7 +70,7 @@ class DartBlock {
     std::uint16_t blocker = kEnd;      // in near_, what the last dart was too near to; likely the next one is too
   };
 
-  void find_places(GroupBits groups);
+  void find_places(const DartTargets& targets);
   void throw_at_all(int level, int darts, int misses, std::vector<Vec3>& nodes);
   bool throw_at(Place& place, int level, std::vector<Vec3>& nodes);
   void halve_all(int level);

@@ -31,9 +31,6 @@ std::uint64_t morton(const std::array<int, 3>& c) {
   return spread_bits(std::uint64_t(c[0])) | spread_bits(std::uint64_t(c[1])) << 1 | spread_bits(std::uint64_t(c[2])) << 2;
 }
 
-/// The fewer looks at groups hit the volume, the more darts may miss it.
-int misses_allowed(int hits, GroupBits groups) { return std::clamp(std::popcount(groups) / (4 * hits + 2), 2, 64); }
-
 }  // namespace
 
 std::span<Vec3> NodePool::take(std::size_t count) {
@@ -159,18 +156,29 @@ bool NodeCubes::fill(std::uint64_t seed, int halvings, const RunOptions& run) {
   return true;
 }
 
+/// The fewer looks at groups that hold some of the volume have hit it, the thinner it is, and the more darts may miss it.
+DartTargets NodeCubes::targets(const std::array<const Filled*, 27>& cubes) const {
+  std::array<GroupBits, 27> groups{};
+  int held = 0, hits = 0;
+  for (std::size_t i = 0; i < 27; ++i) {
+    if (!cubes[i]) continue;
+    groups[i] = cubes[i]->groups;
+    held += std::popcount(groups[i]);
+    hits += cubes[i]->hits;
+  }
+  const GroupBits all = grown(groups), likely = groups[13];
+  return {likely, all & ~likely, std::clamp(2 * held / (hits + 1), 2, 64)};
+}
+
 void NodeCubes::fill(Filled& cube, DartBlock& block, std::vector<Vec3>& found, std::uint64_t seed) {
   const std::array<const Filled*, 27> cubes = around(cube.at);
-  std::array<GroupBits, 27> bits{};
-  for (std::size_t i = 0; i < 27; ++i)
-    if (cubes[i]) bits[i] = cubes[i]->groups;
-  const GroupBits groups = grown(bits);
-  if (groups == 0) return;
+  const DartTargets where = targets(cubes);
+  if ((where.likely | where.possible) == 0) return;
   block.open(cube.at);
   for (const Filled* other : cubes)
     if (other) block.add(other->there), block.add(other->added);
   found.clear();
-  block.fill(hash_of(seed, morton(cube.at)), groups, misses_allowed(cube.hits, groups), found);
+  block.fill(hash_of(seed, morton(cube.at)), where, found);
   const std::span<Vec3> added = pool_.take(found.size());
   std::copy(found.begin(), found.end(), added.begin());
   cube.added = added;

@@ -54,6 +54,7 @@ class NodeCubes {
   bool find_groups(const RunOptions& run);
   std::vector<std::uint32_t> of_phase(std::size_t phase) const;
   std::array<const Filled*, 27> around(const Cube& cube) const;
+  DartTargets targets(const std::array<const Filled*, 27>& cubes) const;
   void fill(Filled& cube, DartBlock& block, std::vector<Vec3>& found, std::uint64_t seed);
 
   std::size_t index(const Cube& c) const {
