@@ -43,7 +43,7 @@ class MissedSurface::Search {
     if (only_blends_) return;
     const Box box = tree_.box(l);
     if (!l.uniform() && falls_throughout(circumscribed_ball(box))) return;
-    polygons_.turn_to(box.padded(kReach * tolerance_));
+    polygons_.turn_to(box, kReach * tolerance_);
     cubes_ = 0;
     most_cubes_ = static_cast<int>(kMostCubes * std::pow(4.0, std::max(l.level - finest_, 3)));
     places_.clear();

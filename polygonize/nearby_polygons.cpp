@@ -17,9 +17,30 @@ PatchesOfLeaves::PatchesOfLeaves(const Contour& contour, std::size_t leaves) : f
     if (contour.patches[p].alive()) patches_[next[contour.patches[p].leaf]++] = p;
 }
 
+namespace {
+
+/// From a point in a box to its boundary.
+double clearance(const Vec3& p, const Box& box) {
+  return std::min({p.x - box.lo.x, p.y - box.lo.y, p.z - box.lo.z, box.hi.x - p.x, box.hi.y - p.y, box.hi.z - p.z});
+}
+
+}  // namespace
+
 double NearbyPolygons::distance(const Vec3& p, double enough) {
+  double least = distance_here(p, enough);
+  while (least > enough && widen()) least = distance_here(p, enough);
+  return least;
+}
+
+double NearbyPolygons::distance_to_vertex(const Vec3& p, const Box& in) {
+  double least = distance_to_vertex_here(p, in);
+  while (least > clearance(p, box_) && !(box_.contains(in.lo) && box_.contains(in.hi)) && widen()) least = distance_to_vertex_here(p, in);
+  return least;
+}
+
+double NearbyPolygons::distance_here(const Vec3& p, double enough) {
   const Box everywhere{Vec3(-kInfinity), Vec3(kInfinity)};
-  double least = distance_to_vertex(p, everywhere);
+  double least = distance_to_vertex_here(p, everywhere);
   if (least <= enough) return least;
   if (!knows_triangles_) find_triangles();
   for (const Triangle& t : triangles_) {
@@ -30,7 +51,7 @@ double NearbyPolygons::distance(const Vec3& p, double enough) {
   return least;
 }
 
-double NearbyPolygons::distance_to_vertex(const Vec3& p, const Box& in) {
+double NearbyPolygons::distance_to_vertex_here(const Vec3& p, const Box& in) {
   if (!knows_patches_) find_patches();
   double least = kInfinity;
   for (const std::uint32_t patch : near_)

@@ -3,6 +3,7 @@
 
 #include "polygonize/polygon_split.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -44,10 +45,13 @@ class NearbyPolygons {
   NearbyPolygons(const SurfaceOctree& tree, const Contour& contour, const PlacedPolygons& placed, const PatchesOfLeaves& patches)
       : tree_(tree), contour_(contour), placed_(placed), positions_(placed.positions), patches_of_(patches) {}
 
-  /// From now on the vertices are those of the leaves that reach into this box, and the polygons those around them.
-  void turn_to(const Box& box) {
-    box_ = box;
-    knows_patches_ = knows_triangles_ = false;
+  /// From now on the vertices are those of the leaves that reach to within `reach` of a box, metres, and the polygons those around them.
+  /// Where the box, is small beside it they are looked for near by first.
+  void turn_to(const Box& box, double reach) {
+    center_ = box;
+    farthest_ = reach;
+    const double edge = box.hi.x - box.lo.x;
+    look_within(edge > 0 ? std::min(reach, kFirstReach * edge) : reach);
   }
   /// To the nearest polygon; infinite if there are none. Where it is less than `enough`, anything between.
   double distance(const Vec3& p, double enough);
@@ -67,6 +71,19 @@ class NearbyPolygons {
     void add(const Vec3& a, const Vec3& b, const Vec3& c);
   };
 
+  static constexpr double kFirstReach = 2, kWiden = 4;   // box edges; and times, where that is not enough
+  void look_within(double reach) {
+    reach_ = reach;
+    box_ = center_.padded(reach);
+    knows_patches_ = knows_triangles_ = false;
+  }
+  bool widen() {
+    if (reach_ >= farthest_) return false;
+    look_within(std::min(kWiden * reach_, farthest_));
+    return true;
+  }
+  double distance_here(const Vec3& p, double enough);
+  double distance_to_vertex_here(const Vec3& p, const Box& in);
   void find_patches();
   void append_patches(SurfaceOctree::Node node, const GridCube& cube);
   void find_triangles();
@@ -78,7 +95,8 @@ class NearbyPolygons {
   const PlacedPolygons& placed_;
   const std::vector<Vec3>& positions_;
   const PatchesOfLeaves& patches_of_;
-  Box box_;
+  Box center_, box_;
+  double reach_ = 0, farthest_ = 0;
   bool knows_patches_ = false, knows_triangles_ = false;
   std::vector<std::uint32_t> near_, edges_;   // patches, and the edges around them
   std::vector<Triangle> triangles_;

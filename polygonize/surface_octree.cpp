@@ -34,6 +34,8 @@ CellPlace offset(const CellPlace& place, int x, int y, int z, int level) {
 namespace {
 
 constexpr std::size_t kMostLeaves = 120'000'000;   // of 20 bytes, and some 250 more where they hold the surface
+constexpr std::size_t kForetelling = 64;           // one cell of so many foretells their leaves,
+constexpr double kDoubt = 0.75;                    // with this to be taken off
 
 void require_room(std::size_t leaves) {
   if (leaves > kMostLeaves) {
@@ -400,13 +402,21 @@ std::optional<SurfaceOctree> SurfaceOctree::build(const SurfaceCover& cover, int
   std::vector<Subtree> subtrees(cover.size());
   std::atomic<std::size_t> so_far{0};
   tbb::enumerable_thread_specific<Sampler> samplers;
-  tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
+  const auto cut = [&](std::size_t i) {
     if (run.cancelled() || so_far > kMostLeaves) return;
     const PrunedField field = cover.cube_field(i);
     const Cube cube = tree.cube_of(i);
     subtrees[i].roots.push_back(samplers.local().cut_beside_tubes(tree, field, static_cast<std::uint32_t>(i), cube.place, cube.level,
                                                                   tree.wanted_level(field, cube.level), subtrees[i]));
     so_far += subtrees[i].leaves.size();
+  };
+  // A few first: where there would be far too many leaves that is known at once.
+  const std::size_t foretold = (cover.size() + kForetelling - 1) / kForetelling;
+  tbb::parallel_for(std::size_t{0}, foretold, [&](std::size_t i) { cut(i * kForetelling); });
+  if (run.cancelled()) return std::nullopt;
+  require_room(static_cast<std::size_t>(kDoubt * static_cast<double>(so_far * kForetelling)));
+  tbb::parallel_for(std::size_t{0}, cover.size(), [&](std::size_t i) {
+    if (i % kForetelling != 0) cut(i);
   });
   if (run.cancelled()) return std::nullopt;
   require_room(so_far);

@@ -35,13 +35,13 @@ TEST(NearbyPolygons, AreThoseOfAllThatAreWithinReach) {
   NearbyPolygons nearby(made.on.tree, made.contour, placed, patches), all(made.on.tree, made.contour, placed, patches);
   Box around;
   for (const Vec3& p : made.positions) around.extend(p);
-  all.turn_to(around.padded(1));
+  all.turn_to(around, 1);
   Draws draws(1);
   int near = 0;
   for (int i = 0; i < 300; ++i) {
     const Vec3 low = draws.point(around);
     const Box box{low, low + Vec3(0.1)};
-    nearby.turn_to(box.padded(0.1));
+    nearby.turn_to(box, 0.1);
     for (int k = 0; k < 10; ++k) {
       const Vec3 p = draws.point(box);
       const double exact = all.distance(p, 0), enough = draws.in(0, 0.1), told = nearby.distance(p, enough);
@@ -52,6 +52,29 @@ TEST(NearbyPolygons, AreThoseOfAllThatAreWithinReach) {
     }
   }
   EXPECT_GT(near, 100);
+}
+
+TEST(NearbyPolygons, AreTheSameHoweverSmallTheBoxIsBesideTheReach) {
+  const Contoured made(testing::fork_field());
+  const PlacedPolygons placed{made.positions, made.splits, kInfinity};
+  const PatchesOfLeaves patches(made.contour, made.on.tree.leaves().size());
+  NearbyPolygons nearby(made.on.tree, made.contour, placed, patches), all(made.on.tree, made.contour, placed, patches);
+  Box around;
+  for (const Vec3& p : made.positions) around.extend(p);
+  Draws draws(2);
+  int near = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = draws.point(around);
+    nearby.turn_to({p - 0.001, p + 0.001}, 0.2);   // looked for five times over
+    all.turn_to(around, 1);
+    const double exact = all.distance(p, 0);
+    if (exact > 0.2) continue;
+    EXPECT_LE(nearby.distance(p, 0.05), std::max(exact, 0.05));
+    EXPECT_EQ(nearby.distance(p, 0), exact);
+    EXPECT_EQ(nearby.distance_to_vertex(p, around.padded(1)), all.distance_to_vertex(p, around.padded(1)));
+    ++near;
+  }
+  EXPECT_GT(near, 50);
 }
 
 TEST(NearbyPolygons, HoldTheMiddlesOfTriangles) {
@@ -65,7 +88,7 @@ TEST(NearbyPolygons, HoldTheMiddlesOfTriangles) {
     if (ring.count != 3) continue;
     Vec3 middle(0.0);
     for (int k = 0; k < 3; ++k) middle += made.positions[ring.patches[k]] / 3.0;
-    nearby.turn_to(Box{middle, middle}.padded(0.2));
+    nearby.turn_to({middle, middle}, 0.2);
     if (split_of(made.on.tree, made.contour, e, ring, made.positions, kInfinity) == Split::kFan) continue;
     ASSERT_NEAR(nearby.distance(middle, 0), 0, 1e-9);
     ++triangles;
@@ -81,7 +104,7 @@ TEST(NearbyPolygons, KnowTheNearestVertexOfTheLeavesAround) {
   const Box everywhere{Vec3(-kInfinity), Vec3(kInfinity)};
   for (const Patch& patch : made.contour.patches) {
     const Box box = made.on.tree.box(made.on.tree.leaves()[patch.leaf]);
-    nearby.turn_to(box);
+    nearby.turn_to(box, 0);
     double least = kInfinity;
     for (std::size_t p = 0; p < made.positions.size(); ++p)
       if (made.on.tree.box(made.on.tree.leaves()[made.contour.patches[p].leaf]).intersects(box))
