@@ -113,6 +113,14 @@ class SurfaceOctree::Sampler {
     std::uint32_t leaf = 0, slot = 0;
   };
   static constexpr std::uint32_t kRoot = 0xffffffffu;
+  static constexpr std::uint32_t kNoCell = 0xffffffffu;
+
+  /// A cell of the cover beside the one that is being sampled.
+  struct Home {
+    std::array<std::array<std::uint32_t, 2>, 3> places;   // its cube, in units: low, high
+    PrunedField field;
+    bool may_be_cracked = false;
+  };
 
   int at(int x, int y, int z) const { return x + side_ * (y + side_ * z); }
 
@@ -168,10 +176,9 @@ class SurfaceOctree::Sampler {
           if (is_own && smooth) continue;
           PrunedField home = field;
           if (!is_own) {   // here nothing may choose and there something may
-            const auto found = tree.cell_at(corner);
-            if (!found) continue;
-            home = tree.cover_->cube_field(*found);
-            if (!may_be_cracked(home, width)) continue;
+            const Home* found = home_of(tree, cell, corner, width);
+            if (!found || !found->may_be_cracked) continue;
+            home = found->field;
           }
           // One of the sheets is within half the width, and no field of these radii falls by more over that way, but for scars.
           const double reach = std::min(static_cast<double>(kFarthest), width / home.smallest_radius());
@@ -188,6 +195,23 @@ class SurfaceOctree::Sampler {
   // wherever a crack of theirs touches.
   static bool may_be_cracked(const PrunedField& field, double width) {
     return !ChoiceEvaluator::smooth(field) && width <= field.smallest_radius();
+  }
+
+  /// The cell of the cover that a corner on the boundary of another is in; null if there is none.
+  const Home* home_of(const SurfaceOctree& tree, std::uint32_t cell, const CellPlace& corner, double width) {
+    if (cell != homes_around_) homes_.clear();
+    homes_around_ = cell;
+    const auto holds = [&](const Home& home) {
+      bool inside = true;
+      for (int a = 0; a < 3; ++a) inside = inside && home.places[a][0] <= corner[a] && corner[a] < home.places[a][1];
+      return inside;
+    };
+    const auto known = std::find_if(homes_.begin(), homes_.end(), holds);
+    if (known != homes_.end()) return &*known;
+    const auto found = tree.cell_at(corner);
+    if (!found) return nullptr;
+    const PrunedField field = tree.cover_->cube_field(*found);
+    return &homes_.emplace_back(Home{tree.places_of(*found), field, may_be_cracked(field, width)});
   }
 
   // No surface may come to lie against a place that the cover has no cell for.
@@ -339,6 +363,8 @@ class SurfaceOctree::Sampler {
   std::vector<float> x_, y_, z_, f_, gx_, gy_, gz_, px_, py_, pz_, pf_;
   std::vector<std::uint8_t> inside_, suspect_;
   std::vector<Probe> probes_;
+  std::vector<Home> homes_;               // that were asked for around one cell
+  std::uint32_t homes_around_ = kNoCell;
 };
 
 // place(part, i, node): puts a subtree's root where it belongs; each is another's place.
