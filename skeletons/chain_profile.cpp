@@ -73,11 +73,13 @@ class ChainProfile {
     return made;
   }
 
+  static constexpr double kClearance = 1.75;   // of its radius: where a lateral starts, from the axis, less the parent's radius
+
   /// Where a lateral starts along its own path. field.md has 2.2 r - R, which keeps its support off the far side of the axis only
   /// above 35 degrees or so: at 20 degrees and r = R the far side would bulge by 5.9 %. Less than 1.75 r - R away from the axis
   /// it is too near at any angle (the numbers are in junction_field_test.cpp).
   double delta_of(const Axis& axis) const {
-    constexpr double kClearance = 1.75, kFarthestRadii = 4;
+    constexpr double kFarthestRadii = 4;
     if (axis.parent < 0) return 0;
     const Axis& parent = axes_[axis.parent];
     const double r = axis.nodes[0].radius, parent_radius = radius_at(parent, axis.attach);
@@ -87,17 +89,38 @@ class ChainProfile {
     return std::max({0.0, kSupportPerRadius * r - parent_radius, steep});
   }
 
+  /// delta goes by the parent's tangent, which is too much where the parent bends away: a lateral that would not even touch it starts
+  /// where it is clear of the parent's axis itself. Changes delta to that.
+  AxisPlace start_of(const Axis& axis, const std::vector<double>& lengths, double& delta) const {
+    const Axis& parent = axes_[axis.parent];
+    const double clear = kClearance * axis.nodes[0].radius - radius_at(parent, axis.attach);
+    AxisPlace place, near;
+    const auto distance_at = [&](double length) {
+      place = place_at_length(lengths, length);
+      near = walk_to_nearest(parent, axis.attach, position_at(axis, place));
+      return glm::distance(position_at(parent, near), position_at(axis, place));
+    };
+    if (distance_at(delta) <= radius_at(parent, near) + radius_at(axis, place)) return place;
+    double lo = 0, hi = delta;
+    for (int step = 0; step < 40; ++step) {
+      delta = 0.5 * (lo + hi);
+      (distance_at(delta) < clear ? lo : hi) = delta;
+    }
+    return place;
+  }
+
   /// The axis from delta on; no nodes if it is shorter.
   Body body_of(std::size_t i) const {
     const Axis& axis = axes_[i];
-    const double delta = delta_of(axis);
+    double delta = delta_of(axis);
     Body body;
     body.begin = delta;
     body.nodes.reserve(axis.nodes.size());
     if (delta > 0) {
       const std::vector<double> lengths = lengths_along(axis);
       if (delta >= lengths.back()) return body;
-      const AxisPlace place = place_at_length(lengths, delta);
+      const AxisPlace place = start_of(axis, lengths, delta);
+      body.begin = delta;
       body.segment = place.segment;
       body.nodes.push_back({position_at(axis, place), radius_at(axis, place)});
       if (lengths[place.segment + 1] - delta <= 1e-9 * axis.nodes[0].radius) body.nodes.clear();

@@ -46,6 +46,22 @@ TEST(ChainProfile, AThinLateralStartsOnTheAxis) {
   EXPECT_EQ(chain.nodes[0].position, Vec3(0, 0, 10));
 }
 
+/// Between the two segments of a corner, along the tangent that is halfway between them.
+TEST(ChainProfile, ALateralStillTouchesAParentThatBendsAway) {
+  Skeleton s;
+  s.nodes.push_back(node_at({0, 0, 0}, 0.1, -1));
+  s.nodes.push_back(node_at({0, 0, 3}, 0.1, 0));
+  s.nodes.push_back(node_at({3, 0, 3}, 0.1, 1));
+  s.nodes.push_back(node_at({0.9, 0, 3.9}, 0.095, 1));   // a little thinner: the axis goes on in the one before
+  SurfaceOptions options;
+  options.conditioning.enabled = false;
+  const Surfaced made = surface(s, options);
+  const Chain lateral = made.tree.get<Chain>(root_fork(made.tree).laterals[0].child);
+  const double from_axis = lateral.nodes[0].position.z - 3;   // which goes on level there
+  EXPECT_LE(from_axis, 0.1 + 0.095);
+  EXPECT_NEAR(from_axis, 1.75 * 0.095 - 0.1, 1e-9);
+}
+
 TEST(ChainProfile, LateralsAtOnePointShareTheForkOfTheirAxis) {
   Skeleton s = fork_tree(0.5, 0.2, 50, 10);
   s.nodes.push_back(node_at({-8, 0, 15}, 0.2, 1));
