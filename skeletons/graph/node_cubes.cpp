@@ -14,7 +14,7 @@
 namespace cambium {
 namespace {
 
-constexpr double kMostCubes = 1e9;
+constexpr double kMostCubes = 2.5e8;          // a gigabyte for their numbers
 constexpr std::size_t kSerialCubes = 64;     // not more: threads would cost more than they save
 constexpr std::size_t kLargestPiece = 65536; // nodes
 
@@ -46,8 +46,9 @@ std::span<Vec3> NodePool::take(std::size_t count) {
   return taken;
 }
 
-NodeCubes::NodeCubes(const GraphVolume& volume, const VolumeProbe& probe, const DartLattice& lattice, std::span<const Vec3> there)
-    : volume_(volume), probe_(probe), lattice_(lattice) {
+NodeCubes::NodeCubes(const GraphVolume& volume, const VolumeProbe& probe, const DartLattice& lattice, std::span<const Vec3> there,
+                     const RunOptions& run)
+    : volume_(volume), probe_(probe), lattice_(lattice), run_(run) {
   const Vec3 size = lattice.hi - lattice.lo;
   double cubes = 1;
   for (int k = 0; k < 3; ++k) cubes *= size_[std::size_t(k)] = static_cast<int>(std::min(size[k] / lattice.cube_side(), kMostCubes)) + 1;
@@ -59,7 +60,7 @@ NodeCubes::NodeCubes(const GraphVolume& volume, const VolumeProbe& probe, const 
 
 void NodeCubes::find_cubes() {
   std::vector<std::pair<std::uint64_t, Cube>> found;
-  for (int z = 0; z < size_[2]; ++z)
+  for (int z = 0; z < size_[2] && !run_.cancelled(); ++z)
     for (int y = 0; y < size_[1]; ++y)
       for (int x = 0; x < size_[0]; ++x) {
         const Vec3 corner = lattice_.corner({x, y, z});
@@ -105,12 +106,12 @@ void NodeCubes::put_in(std::span<const Vec3> there) {
 
 std::size_t NodeCubes::grain() const { return cubes_.size() <= kSerialCubes ? kSerialCubes : 8; }
 
-bool NodeCubes::find_groups(const RunOptions& run) {
+bool NodeCubes::find_groups() {
   for (const Vec3& p : probe_.inside()) {
     Filled& cube = cubes_[number_of(cube_of(p))];
     cube.groups |= group_of(lattice_, cube.at, p);
   }
-  return in_node_chunks(cubes_.size(), grain(), run, [&](std::size_t begin, std::size_t end) {
+  return in_node_chunks(cubes_.size(), grain(), run_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!cubes_[i].is_open) continue;
       const GroupBits found = groups_inside(volume_, lattice_, cubes_[i].at);
@@ -142,14 +143,14 @@ std::array<const NodeCubes::Filled*, 27> NodeCubes::around(const Cube& c) const 
   return cubes;
 }
 
-bool NodeCubes::fill(std::uint64_t seed, int halvings, const RunOptions& run) {
-  if (!find_groups(run)) return false;
+bool NodeCubes::fill(std::uint64_t seed, int halvings) {
+  if (run_.cancelled() || !find_groups()) return false;
   for (std::size_t phase = 0; phase < 8; ++phase) {
     const std::vector<std::uint32_t> cubes = of_phase(phase);
-    const bool finished = in_node_chunks(cubes.size(), grain(), run, [&](std::size_t begin, std::size_t end) {
+    const bool finished = in_node_chunks(cubes.size(), grain(), run_, [&](std::size_t begin, std::size_t end) {
       DartBlock block(volume_, lattice_, halvings);
       std::vector<Vec3> found;
-      for (std::size_t i = begin; i < end && !run.cancelled(); ++i) fill(cubes_[cubes[i]], block, found, seed);
+      for (std::size_t i = begin; i < end && !run_.cancelled(); ++i) fill(cubes_[cubes[i]], block, found, seed);
     });
     if (!finished) return false;
   }

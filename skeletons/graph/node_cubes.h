@@ -26,14 +26,15 @@ class NodePool {
   std::size_t piece_size_ = 256, left_ = 0;
 };
 
-/// Keeps references to the volume, the probe and the lattice. Memory: that of the nodes, and 4 bytes for each cube of the bounds.
+/// Keeps references to all that it is made with but `there`. Memory: that of the nodes, and 4 bytes for each cube of the bounds.
 class NodeCubes {
  public:
-  /// `there`: nodes to keep clear of. Errors: InputError (no location) where the bounds are too many cubes.
-  NodeCubes(const GraphVolume& volume, const VolumeProbe& probe, const DartLattice& lattice, std::span<const Vec3> there);
+  /// `there`: nodes to keep clear of. Cancelled, it fills nothing any more. Errors: InputError (no location) where the bounds are too
+  /// many cubes.
+  NodeCubes(const GraphVolume& volume, const VolumeProbe& probe, const DartLattice& lattice, std::span<const Vec3> there, const RunOptions& run);
 
   /// Adds what fits in. The same at any thread count. False if cancelled.
-  bool fill(std::uint64_t seed, int halvings, const RunOptions& run);
+  bool fill(std::uint64_t seed, int halvings);
   /// Those that were not there before, neighbours near each other.
   std::vector<Vec3> added() const;
 
@@ -51,7 +52,7 @@ class NodeCubes {
 
   void find_cubes();
   void put_in(std::span<const Vec3> there);
-  bool find_groups(const RunOptions& run);
+  bool find_groups();
   std::vector<std::uint32_t> of_phase(std::size_t phase) const;
   std::array<const Filled*, 27> around(const Cube& cube) const;
   DartTargets targets(const std::array<const Filled*, 27>& cubes) const;
@@ -67,6 +68,7 @@ class NodeCubes {
   const GraphVolume& volume_;
   const VolumeProbe& probe_;
   const DartLattice& lattice_;
+  const RunOptions& run_;
   Cube size_{1, 1, 1};
   std::vector<std::uint32_t> number_;  // of each cube of the bounds, in cubes_
   std::vector<Filled> cubes_;          // those that may hold some of the volume, in Morton's order; then others that have nodes

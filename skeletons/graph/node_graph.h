@@ -49,7 +49,9 @@ double longest_yao_edge(std::span<const Vec3> positions, double spacing, int sec
 /// subvolumes or cross an obstacle are left out: of a sector, the nearest node that may be joined is. `parts`: the subvolume of each
 /// node; empty: all are of one. Then, what node 0 does not reach is joined to it by the shortest edges there are (also across
 /// subvolumes or obstacles if nothing else will do), and counted.
-/// The same at any thread count; nullopt if cancelled. Cost: linear in the nodes for nodes spread as poisson_disc spreads them.
+/// The same at any thread count; nullopt if cancelled. Cost: linear in the nodes for nodes spread as poisson_disc spreads them, about a
+/// microsecond each; while it runs 4 bytes for each node and sector besides the graph's own.
+/// Errors: InputError (no location) that names the setting by its key in a recipe.
 std::optional<NodeGraph> join_nodes(std::span<const Vec3> positions, double spacing, std::span<const std::uint16_t> parts,
                                     const Obstacles* obstacles, const EdgeOptions& options, const RunOptions& run);
 

@@ -44,7 +44,7 @@ void NodeGrid::choose_side(const Box& box, std::size_t nodes, double side) {
   for (;; side *= 2) {
     double cells = 1;
     for (int k = 0; k < 3; ++k) cells *= std::floor(size[k] / side) + 1;
-    if (cells <= 2 * static_cast<double>(nodes) + 64) break;
+    if (cells <= 4 * static_cast<double>(nodes) + 1024) break;
   }
   side_ = side;
   per_metre_ = 1 / side;

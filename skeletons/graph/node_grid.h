@@ -10,14 +10,14 @@
 
 namespace cambium {
 
-/// Immutable, used by threads at once. Memory: 4 bytes a node and 4 a cell; there are at most about twice as many cells as nodes.
+/// Immutable, used by threads at once. Memory: 4 bytes a node and 4 a cell; there are at most about four times as many cells as nodes.
 class NodeGrid {
  public:
   using Cell = std::array<int, 3>;
   static constexpr double kFewest = 1.3;
 
   /// Cells of `side` metres, or of twice, four times ... as much until cells with nodes in them hold kFewest on average, and cells are
-  /// not more than twice the nodes.
+  /// not many more than four times the nodes.
   NodeGrid(std::span<const Vec3> positions, double side);
 
   double side() const { return side_; }

@@ -43,8 +43,8 @@ class Strewing {
   /// Adds what fits in at a spacing, not larger than the one before. False if cancelled.
   bool add(double spacing, int halvings) {
     const DartLattice lattice(volume_.bounds(), spacing);
-    NodeCubes cubes(volume_, probe_, lattice, nodes_);
-    if (!cubes.fill(hash_of(seed_, ++passes_), halvings, run_)) return false;
+    NodeCubes cubes(volume_, probe_, lattice, nodes_, run_);
+    if (!cubes.fill(hash_of(seed_, ++passes_), halvings)) return false;
     const std::vector<Vec3> added = cubes.added();
     nodes_.insert(nodes_.end(), added.begin(), added.end());
     return true;
@@ -128,7 +128,8 @@ std::optional<PoissonDiscNodes> poisson_disc(const GraphVolume& volume, std::spa
   if (options.count && *options.count <= given.size()) return result;
   const std::size_t wanted = options.count.value_or(given.size()) - given.size();
   const Vec3 size = volume.bounds().size();
-  const VolumeProbe probe(volume, samples_for(options.spacing ? size.x * size.y * size.z / std::pow(*options.spacing, 3) : double(wanted)));
+  const VolumeProbe probe(volume, samples_for(options.spacing ? size.x * size.y * size.z / std::pow(*options.spacing, 3) : double(wanted)), run);
+  if (run.cancelled()) return std::nullopt;
   if (probe.empty()) return result;
   Strewing strewing(volume, probe, given, options.seed, run);
   if (options.spacing) {

@@ -26,7 +26,10 @@ struct PoissonDiscNodes {
 };
 
 /// `given`: nodes that are there in any case, in the volume or not.
-/// The same at any thread count. nullopt if cancelled. Cost: linear in the nodes and, for a volume that fills little of its bounds,
+/// Darts thrown at cells of space: where a count chooses the spacing, four at each, which leaves holes of up to twice the spacing, mostly
+/// of half as much; where the spacing is given, also at the parts of cells that are still free, until holes are not larger than 1.25
+/// spacings but where the volume is thin.
+/// The same at any thread count. nullopt if cancelled. Cost: linear in the nodes, one to four microseconds each, and, for a volume that fills little of its bounds,
 /// in the bounds' size in cells of `spacing`.
 /// A volume without room for any more gives the given nodes alone.
 /// Errors: InputError (no location) where the nodes would be more than 2^31.

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kFewInside = 128;                       // then a look at eight times as many
 constexpr std::size_t kMostSamples = std::size_t{1} << 18;
 constexpr std::size_t kTooFewInside = 16;                     // of the most: what an obstacle left over, too little to grow in
+constexpr std::size_t kPollEvery = 1024;                      // samples
 constexpr std::size_t kLeastOfSolid = 64;                     // samples
 constexpr std::size_t kBallSamples = 512;
 constexpr double kSamplesInCell = 4;                          // on average, of cells with any
@@ -46,17 +47,17 @@ const std::array<Vec3, kBallSamples>& places_in_ball() {
 
 }  // namespace
 
-VolumeProbe::VolumeProbe(const GraphVolume& volume, std::size_t samples) : of_(volume) {
+VolumeProbe::VolumeProbe(const GraphVolume& volume, std::size_t samples, const RunOptions& run) : of_(volume) {
   for (;; samples *= 8) {
     samples = std::min(samples, kMostSamples);
-    sample(samples);
-    if (inside_.size() >= kFewInside || samples == kMostSamples) break;
+    sample(samples, run);
+    if (inside_.size() >= kFewInside || samples == kMostSamples || run.cancelled()) break;
   }
   if (inside_.size() < kTooFewInside) inside_.clear(), volume_ = 0;
   if (!empty()) mark_cells();
 }
 
-void VolumeProbe::sample(std::size_t samples) {
+void VolumeProbe::sample(std::size_t samples, const RunOptions& run) {
   const std::vector<SolidFrame>& frames = of_.frames();
   std::vector<Box> boxes;             // of the solids in their own frames
   std::vector<double> sizes;          // cubic metres
@@ -76,6 +77,7 @@ void VolumeProbe::sample(std::size_t samples) {
     const auto count = std::max(kLeastOfSolid, static_cast<std::size_t>(static_cast<double>(samples) * sizes[s] / total));
     const std::size_t before = inside_.size();
     for (std::size_t i = 0; i < count; ++i) {
+      if (i % kPollEvery == 0 && run.cancelled()) return;
       const Vec3 p = frames[s].placed(boxes[s].lo + boxes[s].size() * spread_place(i));
       if (first_with(p) == s && of_.contains(p)) inside_.push_back(p);
     }

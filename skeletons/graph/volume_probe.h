@@ -1,6 +1,7 @@
 // What a look at some places in a volume tells of it: how large it is, how thin, and where in its bounds it is.
 #pragma once
 
+#include "blobtree/run_options.h"
 #include "skeletons/graph/graph_volume.h"
 
 #include <array>
@@ -13,8 +14,8 @@ namespace cambium {
 class VolumeProbe {
  public:
   /// About `samples` places, spread over the bounds of each solid in its own frame, so that thin ones are not missed; more where few
-  /// of them are inside.
-  VolumeProbe(const GraphVolume& volume, std::size_t samples);
+  /// of them are inside. Cancelled, it is of no use.
+  VolumeProbe(const GraphVolume& volume, std::size_t samples, const RunOptions& run = {});
 
   bool empty() const { return inside_.empty(); }
   double volume() const { return volume_; }   ///< cubic metres
@@ -27,7 +28,7 @@ class VolumeProbe {
  private:
   using Cell = std::array<int, 3>;
 
-  void sample(std::size_t samples);
+  void sample(std::size_t samples, const RunOptions& run);
   void mark_cells();
   Cell cell_of(const Vec3& p) const;
   std::size_t index(int x, int y, int z) const {
