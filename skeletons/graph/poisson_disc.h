@@ -26,9 +26,9 @@ struct PoissonDiscNodes {
 };
 
 /// `given`: nodes that are there in any case, in the volume or not.
-/// Darts are thrown at cells of space: where a count chooses the spacing, four at each, so that holes are at most twice the spacing wide
-/// (a place is not farther than that from a node) and mostly half as much; where the spacing is given, also at the parts of cells that
-/// are still free, until holes are at most 1.25 times as wide, but for slivers along the volume's surface.
+/// Darts are thrown at cells of space: where a count chooses the spacing, four at each, so that a place is mostly within one and a half
+/// spacings of a node; where the spacing is given, also at the parts of cells that are still free, until every place is within 1.25
+/// spacings of a node, but for slivers along the volume's surface.
 /// The same at any thread count. nullopt if cancelled. Cost: linear in the nodes, one to four microseconds each, and, for a volume that
 /// fills little of its bounds, in the bounds' size in cells of `spacing`.
 /// A volume without room for any more gives the given nodes alone.
