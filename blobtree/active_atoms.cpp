@@ -87,6 +87,23 @@ class Listing {
   double farthest_ = 0;           // and the most that one's distance stays above
 };
 
+/// The most that the flare at hand widens its chain in a box, found once for all its segments.
+class Widening {
+ public:
+  /// ball: around the box; half_size: of the box. 1 of a chain.
+  double most(const CompiledTree& tree, std::uint32_t id, const Ball& ball, const Vec3& half_size) {
+    const CompiledNode& node = tree.nodes[id];
+    if (node.op == Op::kChain) return 1;
+    if (id != flare_) most_ = flare_factor_interval(tree.flare_of(node), ball, half_size).hi;
+    flare_ = id;
+    return most_;
+  }
+
+ private:
+  std::uint32_t flare_ = kNone;
+  double most_ = 1;
+};
+
 /// Which of a cube's children a box meets, as bits.
 class TouchedChildren {
  public:
@@ -110,6 +127,8 @@ void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candid
   Listing list(active, candidates.size());
   const FloatBox reach(box);
   const Ball ball = ball_around(box);
+  const Vec3 half_size = 0.5 * box.size();
+  Widening widening;
   const bool bounded = ball.radius < kInfinity;
   for (const std::uint32_t atom : candidates) {
     const std::uint32_t id = tree.node_of_atom[atom];
@@ -117,10 +136,10 @@ void find_active(const CompiledTree& tree, std::span<const std::uint32_t> candid
     if (!tree.run_bounds[run_of(tree, node, atom)].intersects(reach)) continue;
     if (!bounded || node.warp != kNone) {
       list.add(atom, {});
-    } else if (node.op == Op::kChain) {
-      if (!segment_support(tree.segment_ends(node, atom)).intersects(box)) continue;
+    } else if (is_swept(node.op)) {
+      if (!tree.segment_support(node, atom).intersects(box)) continue;
       const Interval x = swept_ratio_interval(tree.segment_of(atom), ball);
-      if (x.lo < kFar) list.add_segment(atom, id, x.lo, x.hi);
+      if (x.lo < kFar * widening.most(tree, id, ball, half_size)) list.add_segment(atom, id, x.lo, x.hi);
     } else {
       const Interval f = bounds_of(tree, node, ball);
       if (f.lo != 0 || f.hi != 0) list.add(atom, f);
@@ -146,6 +165,7 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
   }
   const double radius = glm::length(quarter) * (1 + 1e-9) + 1e-14 * (glm::length(middle) + glm::length(quarter));
   for (Ball& ball : balls) ball.radius = radius;
+  std::array<Widening, kChildren> widenings;
   const TouchedChildren touched_by(cube);
   std::uint32_t last_run = kNone;      // neighbours most often share one
   std::uint8_t touched_by_run = 0;
@@ -168,8 +188,8 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
         touched_by_run = touched_by(tree.run_bounds[run].box());
       }
       touched[i] = touched_by_run;
-      if (touched[i] == 0 || node.op != Op::kChain || node.warp != kNone) continue;
-      touched[i] &= touched_by(segment_support(tree.segment_ends(node, block[i])));
+      if (touched[i] == 0 || !is_swept(node.op) || node.warp != kNone) continue;
+      touched[i] &= touched_by(tree.segment_support(node, block[i]));
       if (touched[i] != 0) segments_[count++] = tree.segment_of(block[i]);
     }
     bound_swept_ratios(segments_.data(), count, centers, radius, bounds_.data());
@@ -178,11 +198,11 @@ void ChildSplitter::split(const CompiledTree& tree, std::span<const std::uint32_
       if (touched[i] == 0) continue;
       const std::uint32_t atom = block[i], id = tree.node_of_atom[atom];
       const CompiledNode& node = tree.nodes[id];
-      const bool warped = node.warp != kNone, segment = !warped && node.op == Op::kChain;
+      const bool warped = node.warp != kNone, segment = !warped && is_swept(node.op);
       for (unsigned bits = touched[i]; bits != 0; bits &= bits - 1) {
         const auto k = static_cast<std::size_t>(std::countr_zero(bits));
         if (segment) {
-          if (ratio->lo[k] < kFar) lists[k].add_segment(atom, id, ratio->lo[k], ratio->hi[k]);
+          if (ratio->lo[k] < kFar * widenings[k].most(tree, id, balls[k], quarter)) lists[k].add_segment(atom, id, ratio->lo[k], ratio->hi[k]);
         } else if (warped) {
           lists[k].add(atom, {});
         } else {

@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "blobtree/batch_kernels.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h:
+#include "blobtree/lane_flare-inl.h"
 #include "blobtree/lane_power-inl.h"
 #include "blobtree/lane_shapes-inl.h"
 #include "blobtree/lane_warps-inl.h"
@@ -243,19 +244,41 @@ class BatchRun {
   }
 
   HWY_NOINLINE void chain(const Step& step) const {
+    const auto unwidened = [](const LaneVector<T>&) HWY_ATTR { return Unwidened{}; };
+    sweep(step, unwidened);
+  }
+
+  HWY_NOINLINE void flare(const Step& step) const {
+    const LocalFlare<T>& local = program_.flares[step.flare];
+    const FlareLanes<T> lanes(local, program_.flare_gaps.data() + local.first_gap);
+    sweep(step, [&](const LaneVector<T>& p) HWY_ATTR { return lanes.template at<kGradient>(p); });
+  }
+
+  struct Unwidened {};
+
+  /// widening(p): what a flare's segments are widened by at points.
+  template <class Widen>
+  HWY_INLINE void sweep(const Step& step, const Widen& widening) const {
+    constexpr bool kFlare = !std::is_same_v<decltype(widening(LaneVector<T>{})), Unwidened>;
     const LocalSwept<T>* const segments = program_.swept.data() + step.first;
     const std::uint32_t count = step.count;
     const Points<T> at = points(step.frame);
     constexpr T kPerSquare = static_cast<T>(kRadiusPerSupport * kRadiusPerSupport);
     const Lanes<T> per_square(kPerSquare), strength(step.width), slope = Lanes<T>(-6 * kPerSquare) * strength;
+    const Lanes<T> six_strengths = Lanes<T>(6) * strength;
     const auto begin = [&](std::size_t i) HWY_ATTR { return at.get(i); };
     const auto same = [](const LaneVector<T>& p) HWY_ATTR { return p; };
     set(step, begin, same, [&](const LaneVector<T>& p) HWY_ATTR {
       SweptNearest<T> best = swept<T, kGradient>(segments[0], p);
       for (std::uint32_t k = 1; k < count; ++k) best = nearer<T, kGradient>(best, swept<T, kGradient>(segments[k], p));
-      const Lanes<T> x2 = best.square / best.radius_square * per_square;
+      const auto m = widening(p);
+      Lanes<T> x2 = best.square / best.radius_square * per_square;
+      if constexpr (kFlare) x2 = x2 * m.per_square;
       const Lanes<T> s = larger(Lanes<T>(1) - x2, Lanes<T>(0)), s2 = s * s, f = s2 * (s * strength);
-      if constexpr (kGradient) {
+      if constexpr (kGradient && kFlare) {
+        const LaneVector<T> by_chain = (s2 * slope / best.radius_square * m.per_square) * best.vector;
+        return with_gradient<N>(f, by_chain + (s2 * x2 * six_strengths) * m.log_gradient);
+      } else if constexpr (kGradient) {
         return with_gradient<N>(f, (s2 * slope / best.radius_square) * best.vector);
       } else {
         return f;
@@ -299,6 +322,7 @@ class BatchRun {
       case StepKind::kBox: primitive<BoxLanes<T>>(step, program_.boxes[step.first]); break;
       case StepKind::kHalfSpace: half_space(step); break;
       case StepKind::kChain: chain(step); break;
+      case StepKind::kFlare: flare(step); break;
       case StepKind::kAdd: combine(step, [](const Operands<N>& f) HWY_ATTR { return f[0] + f[1]; }); break;
       case StepKind::kUnion: combine(step, [=](const Operands<N>& f) HWY_ATTR { return max_of(f, n, with_zero); }); break;
       case StepKind::kIntersection:

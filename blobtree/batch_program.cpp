@@ -52,6 +52,33 @@ class ShapePlacer {
     note(away * kRadiusPerSupport / thinnest * std::max(1.0, std::abs(strength)));
   }
 
+  /// Of the segments that the step has: what widens them, if anything does in the batch's reach.
+  void add(const CompiledFlare& flare, Step& step) {
+    const Vec3 at = flare.local(origin_);
+    if (at.x - reach_ >= flare.height) return;
+    step.kind = StepKind::kFlare;
+    step.flare = index(out_.flares);
+    const double rho = std::hypot(at.y, at.z), azimuth = std::atan2(at.z, at.y), c = std::cos(azimuth), s = std::sin(azimuth);
+    LocalFlare<T>& local = out_.flares.emplace_back();
+    row(local.rest, flare.axis / -flare.height, 1 - at.x / flare.height);
+    row(local.x, c * flare.x + s * flare.y, rho);
+    row(local.y, c * flare.y - s * flare.x, 0);
+    local.spread = static_cast<T>(flare.spread);
+    local.sharpness = static_cast<T>(flare.sharpness);
+    local.section = flare.section;
+    local.first_gap = index(out_.flare_gaps);
+    double narrowest = kInfinity;
+    for (const FlareGap& gap : gaps_in_arc(flare, arc_of_ball(azimuth, rho, reach_ * (1 + 1e-6)))) {
+      out_.flare_gaps.push_back({static_cast<T>(gap.begin - azimuth), static_cast<T>(1 / gap.width), static_cast<T>(gap.length),
+                                 static_cast<T>(gap.next_length - gap.length)});
+      narrowest = std::min(narrowest, gap.width);
+    }
+    local.gap_count = index(out_.flare_gaps) - local.first_gap;
+    const double scale = std::max(1.0, std::abs(step.width));
+    note(0.2 * scale * (std::abs(at.x) + reach_) / flare.height * (flare.spread + flare.sharpness * flare.longest));
+    note(2 * scale / narrowest);
+  }
+
   void add(const CompiledHalfSpace& h, Step& step) {
     step.kind = StepKind::kHalfSpace;
     step.first = index(out_.half_spaces);
@@ -79,6 +106,10 @@ class ShapePlacer {
   }
   double nearest(const Vec3& a, const Vec3& axis, double begin, double end) const {
     return std::clamp(glm::dot(origin_ - a, axis), begin, end);
+  }
+  static void row(T (&to)[4], const Vec3& direction, double offset) {
+    for (int i = 0; i < 3; ++i) to[i] = static_cast<T>(direction[i]);
+    to[3] = static_cast<T>(offset);
   }
   void note(double ratio) { largest_ratio_ = std::max(largest_ratio_, ratio); }
 
@@ -175,7 +206,7 @@ void add_frame(const Warp& warp, std::uint32_t outside, BatchProgram<T>& out) {
     frame.warp = warp;
 }
 
-bool is_leaf(Op op) { return op == Op::kPrimitive || op == Op::kHalfSpace || op == Op::kChain; }
+bool is_leaf(Op op) { return op == Op::kPrimitive || op == Op::kHalfSpace || is_swept(op); }
 
 }  // namespace
 
@@ -190,6 +221,8 @@ void BatchProgram<T>::clear() {
   boxes.clear();
   half_spaces.clear();
   swept.clear();
+  flares.clear();
+  flare_gaps.clear();
   laterals.clear();
   slot_count = 0;
 }
@@ -254,11 +287,13 @@ bool BatchCompiler::compile(const TapeView& view, const Box& box, const Vec3& or
       case Op::kPrimitive: placer.place(view.tree.primitive_of(node), step); break;
       case Op::kHalfSpace: placer.add(view.tree.half_spaces[node.payload], step); break;
       case Op::kChain:
+      case Op::kFlare:
         step.kind = StepKind::kChain;
         step.width = view.tree.chain_strength_of(node);
         step.first = static_cast<std::uint32_t>(out.swept.size());
         for (std::uint32_t i = in.first; i < in.first + in.count; ++i)
           placer.add_segment(view.tree.segment_of(view.tape.slots()[i]), step.width);
+        if (op == Op::kFlare) placer.add(view.tree.flare_of(node), step);
         break;
       case Op::kSum: break;
       case Op::kUnion: step.kind = StepKind::kUnion; break;

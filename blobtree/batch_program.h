@@ -54,6 +54,18 @@ template <class T>
 struct LocalSwept {                       ///< one segment of a chain: a + s axis with radius `radius + slope s`
   T a[3], axis[3], begin, end, radius, slope;
 };
+/// What widens the segments of a flare (flare.h). Rows {x, y, z, offset}: 1 - z/h, and the coordinates beside the axis, x towards the
+/// batch's origin so that no gap begins or ends where azimuths jump.
+template <class T>
+struct LocalFlare {
+  T rest[4], x[4], y[4], spread, sharpness;
+  FlareSection section = FlareSection::kEnvelope;
+  std::uint32_t first_gap = 0, gap_count = 0;
+};
+template <class T>
+struct LocalFlareGap {                    ///< between prongs, azimuths from x; more: what the next prong has over `length`
+  T begin, per_width, length, more;
+};
 template <class T>
 struct LocalLateral {
   T point[3], direction[3], half_per_softness, reach, per_reach;
@@ -70,7 +82,7 @@ struct LocalFrame {
 };
 
 enum class StepKind : std::uint8_t {
-  kPoint, kSegment, kCone, kDisc, kCircle, kBox, kHalfSpace, kChain,
+  kPoint, kSegment, kCone, kDisc, kCircle, kBox, kHalfSpace, kChain, kFlare,
   kAdd, kUnion, kIntersection, kDifference, kRicci, kContact, kFork, kScale, kWarp
 };
 
@@ -83,6 +95,7 @@ struct Step {
   std::uint32_t slot = 0;                 ///< where the value goes; an operator finds its children from here on
   std::uint32_t first = 0;                ///< index among the shapes of its kind, among segments, laterals or numbers
   std::uint32_t count = 0;                ///< children, or segments of a chain
+  std::uint32_t flare = 0;                ///< index of what widens these
   double width = 0, lip = 0;              ///< of contact and fork; `width` also holds an exponent, a factor or a strength
 };
 
@@ -97,6 +110,8 @@ struct BatchProgram {
   std::vector<LocalBox<T>> boxes;
   std::vector<LocalHalfSpace<T>> half_spaces;
   std::vector<LocalSwept<T>> swept;
+  std::vector<LocalFlare<T>> flares;
+  std::vector<LocalFlareGap<T>> flare_gaps;
   std::vector<LocalLateral<T>> laterals;
   std::uint32_t slot_count = 0;
 

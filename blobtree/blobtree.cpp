@@ -61,14 +61,24 @@ KeptRange NodeStore::pooled(const std::vector<NodeId>& children) {
   return range;
 }
 
-KeptChain NodeStore::pack(Chain& node) {
-  check_room("nodes", chain_nodes_.size(), node.nodes.size());
-  const KeptRange range{static_cast<std::uint32_t>(chain_nodes_.size()), static_cast<std::uint32_t>(node.nodes.size())};
+KeptRange NodeStore::pooled(std::vector<ChainNode>&& nodes) {
+  check_room("nodes", chain_nodes_.size(), nodes.size());
+  const KeptRange range{static_cast<std::uint32_t>(chain_nodes_.size()), static_cast<std::uint32_t>(nodes.size())};
   if (chain_nodes_.empty())
-    chain_nodes_ = std::move(node.nodes);  // one long axis may be all there is
+    chain_nodes_ = std::move(nodes);  // one long axis may be all there is
   else
-    chain_nodes_.insert(chain_nodes_.end(), node.nodes.begin(), node.nodes.end());
-  return {range, node.strength};
+    chain_nodes_.insert(chain_nodes_.end(), nodes.begin(), nodes.end());
+  return range;
+}
+
+KeptChain NodeStore::pack(Chain& node) { return {pooled(std::move(node.nodes)), node.strength}; }
+
+KeptFlare NodeStore::pack(Flare& node) {
+  check_room("prongs", prongs_.size(), node.prongs.size());
+  const KeptRange nodes = pooled(std::move(node.nodes));
+  const KeptRange prongs{static_cast<std::uint32_t>(prongs_.size()), static_cast<std::uint32_t>(node.prongs.size())};
+  prongs_.insert(prongs_.end(), node.prongs.begin(), node.prongs.end());
+  return {nodes, prongs, node.base, node.axis, node.height, node.spread, node.sharpness, node.section, node.strength};
 }
 
 KeptFork NodeStore::pack(Fork& node) {
@@ -101,7 +111,10 @@ T NodeStore::unpacked(const typename KeptAs<T>::type& kept) const {
   } else if constexpr (KeptAsChildren<T>) {
     return {list(children(kept))};
   } else if constexpr (std::is_same_v<T, Chain>) {
-    return {list(nodes(kept)), kept.strength};
+    return {list(nodes(kept.nodes)), kept.strength};
+  } else if constexpr (std::is_same_v<T, Flare>) {
+    return {list(nodes(kept.nodes)), kept.base, kept.axis, kept.height, kept.spread, kept.sharpness, list(prongs(kept.prongs)),
+            kept.section, kept.strength};
   } else if constexpr (std::is_same_v<T, Ricci>) {
     return {list(children(kept.children)), kept.exponent};
   } else if constexpr (std::is_same_v<T, Contact>) {
@@ -138,8 +151,10 @@ std::span<const NodeId> NodeStore::children(NodeId id) const {
 }
 
 std::span<const ChainNode> NodeStore::chain_nodes(NodeId id) const {
-  if (kinds_[id] != kNodeKind<Chain>) return {};
-  return nodes(std::get<kNodeKind<Chain>>(arrays_)[places_[id]]);
+  const std::uint32_t place = places_[id];
+  if (kinds_[id] == kNodeKind<Chain>) return nodes(std::get<kNodeKind<Chain>>(arrays_)[place].nodes);
+  if (kinds_[id] == kNodeKind<Flare>) return nodes(std::get<kNodeKind<Flare>>(arrays_)[place].nodes);
+  return {};
 }
 
 std::span<const Lateral> NodeStore::laterals(NodeId id) const {
@@ -155,11 +170,13 @@ void NodeStore::shrink_to_fit() {
   children_.shrink_to_fit();
   chain_nodes_.shrink_to_fit();
   laterals_.shrink_to_fit();
+  prongs_.shrink_to_fit();
 }
 
 std::size_t NodeStore::memory_bytes() const {
   const std::size_t by_kind = std::apply([](const auto&... array) { return (bytes_of(array) + ...); }, arrays_);
-  return by_kind + bytes_of(kinds_) + bytes_of(places_) + bytes_of(children_) + bytes_of(chain_nodes_) + bytes_of(laterals_);
+  return by_kind + bytes_of(kinds_) + bytes_of(places_) + bytes_of(children_) + bytes_of(chain_nodes_) +
+         bytes_of(laterals_) + bytes_of(prongs_);
 }
 
 // ---- the tree and its builder ----------------------------------------------------------------------------------

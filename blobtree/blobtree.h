@@ -41,7 +41,7 @@ class BlobTree {
   std::size_t kind(NodeId id) const { return nodes_.kind(id); }
   /// Children of an operator in order (a fork's axis first); empty for primitives. Spans are valid as long as the tree.
   std::span<const NodeId> children(NodeId id) const { return nodes_.children(id); }
-  /// Empty unless the node is a chain.
+  /// Empty unless the node is a chain or a flare.
   std::span<const ChainNode> chain_nodes(NodeId id) const { return nodes_.chain_nodes(id); }
   /// Empty unless the node is a fork.
   std::span<const Lateral> laterals(NodeId id) const { return nodes_.laterals(id); }

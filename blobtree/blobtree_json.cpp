@@ -1,6 +1,7 @@
 #include "blobtree/blobtree_json.h"
 
 #include "blobtree/degrees.h"
+#include "blobtree/flare.h"
 #include "blobtree/located_json.h"
 
 #include <fmt/format.h>
@@ -27,21 +28,50 @@ Node read_cone(const Json& json, Ids) {
   return T{vec3(json, "base"), vec3(json, "tip"), number(json, "radius_base"), number(json, "radius_tip"), strength(json)};
 }
 
-Node read_chain(const Json& json, Ids) {
+void refuse_bark(const Json& json) {
   for (std::size_t i = 0; i < json.member_count(); ++i)
     if (json.member_key(i).string() == "bark")
-      json.member_key(i).fail("`bark`, which this version does not support", "a chain without it");
-  json.expect_keys({"op", "name", "nodes", "strength"});
-  const Json nodes = json.at("nodes");
-  Chain chain;
-  chain.nodes.reserve(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Json node = nodes[i];
+      json.member_key(i).fail("`bark`, which this version does not support", fmt::format("a {} without it", json.at("op").string()));
+}
+
+std::vector<ChainNode> read_chain_nodes(const Json& json) {
+  const Json list = json.at("nodes");
+  std::vector<ChainNode> nodes;
+  nodes.reserve(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Json node = list[i];
     if (node.kind() != Json::Kind::Array || node.size() != 4) node.fail(node.describe(), "[x, y, z, radius]");
-    chain.nodes.push_back({{node[0].number(), node[1].number(), node[2].number()}, node[3].number()});
+    nodes.push_back({{node[0].number(), node[1].number(), node[2].number()}, node[3].number()});
   }
-  chain.strength = strength(json);
-  return chain;
+  return nodes;
+}
+
+Node read_chain(const Json& json, Ids) {
+  refuse_bark(json);
+  json.expect_keys({"op", "name", "nodes", "strength"});
+  return Chain{read_chain_nodes(json), strength(json)};
+}
+
+FlareSection read_section(const Json& json) {
+  for (const FlareSection section : {FlareSection::kEnvelope, FlareSection::kQuadrifolium, FlareSection::kCircle})
+    if (json.string() == name_of(section)) return section;
+  json.fail(json.describe(), "`envelope`, `quadrifolium` or `circle`");
+}
+
+Node read_flare(const Json& json, Ids) {
+  refuse_bark(json);
+  json.expect_keys({"op", "name", "nodes", "base", "axis", "height", "spread", "sharpness", "prongs", "section", "strength"});
+  Flare flare{read_chain_nodes(json),    vec3(json, "base"),        vec3(json, "axis"), number(json, "height"),
+              number(json, "spread"), number(json, "sharpness"), {}};
+  const Json prongs = json.at("prongs");
+  for (std::size_t i = 0; i < prongs.size(); ++i) {
+    const Json prong = prongs[i];
+    prong.expect_keys({"angle_degrees", "length"});
+    flare.prongs.push_back({angle(prong, "angle_degrees"), prong.number_or("length", 1)});
+  }
+  if (const auto section = json.find("section")) flare.section = read_section(*section);
+  flare.strength = strength(json);
+  return flare;
 }
 
 Node read_sphere(const Json& json, Ids) {
@@ -155,6 +185,7 @@ constexpr Op kOps[] = {
     {"cone", Children::None, read_cone<Cone>},
     {"round_cone", Children::None, read_cone<RoundCone>},
     {"chain", Children::None, read_chain},
+    {"flare", Children::None, read_flare},
     {"sphere", Children::None, read_sphere},
     {"capsule", Children::None, read_capsule},
     {"disc", Children::None, read_disc},
@@ -180,7 +211,6 @@ const Op& op_of(const Json& json) {
   const Json name = json.at("op");
   for (const Op& op : kOps)
     if (op.name == name.string()) return op;
-  if (name.string() == "flare") name.fail("`flare`, which this version does not support", "another op");
   std::string list;
   for (const Op& op : kOps) list += fmt::format("{}`{}`", list.empty() ? "" : ", ", op.name);
   name.fail(fmt::format("the unknown op `{}`", name.string()), "one of " + list);

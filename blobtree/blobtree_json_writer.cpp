@@ -1,5 +1,6 @@
 #include "blobtree/blobtree_json.h"
 #include "blobtree/degrees.h"
+#include "blobtree/flare.h"
 
 #include <fmt/format.h>
 
@@ -98,6 +99,9 @@ class Writer {
     return fmt::format(", \"{}\": [{}, {}, {}]", key, v.x, v.y, v.z);
   }
   void put_angle(const char* key, double radians) {
+    fmt::format_to(std::back_inserter(out_), ", \"{}\": {}", key, degrees_text(radians));
+  }
+  static std::string degrees_text(double radians) {
     // Shortest as a double if its text, read with all its digits, comes back to the same radians; else as a long double.
     const long double degrees = degrees_from_radians(radians);
     std::string text = fmt::format("{}", static_cast<double>(degrees));
@@ -107,7 +111,15 @@ class Writer {
       text.resize(64);
       text.resize(static_cast<std::size_t>(std::to_chars(text.data(), text.data() + text.size(), degrees).ptr - text.data()));
     }
-    fmt::format_to(std::back_inserter(out_), ", \"{}\": {}", key, text);
+    return text;
+  }
+  void put_nodes(const std::vector<ChainNode>& nodes) {
+    out_ += ", \"nodes\": [";
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto& [p, radius] = nodes[i];
+      fmt::format_to(std::back_inserter(out_), "{}[{}, {}, {}, {}]", i == 0 ? "" : ", ", p.x, p.y, p.z, radius);
+    }
+    out_ += ']';
   }
   void put_contact(double width, double lip) {
     if (width != kIso) put("width", width);
@@ -138,12 +150,23 @@ class Writer {
   void write(const RoundCone& n, NodeId id) { write_cone("round_cone", n, id); }
   void write(const Chain& n, NodeId id) {
     begin("chain", id);
-    out_ += ", \"nodes\": [";
-    for (std::size_t i = 0; i < n.nodes.size(); ++i) {
-      const auto& [p, radius] = n.nodes[i];
-      fmt::format_to(std::back_inserter(out_), "{}[{}, {}, {}, {}]", i == 0 ? "" : ", ", p.x, p.y, p.z, radius);
-    }
+    put_nodes(n.nodes);
+    end(n.strength);
+  }
+  void write(const Flare& n, NodeId id) {
+    begin("flare", id);
+    put_nodes(n.nodes);
+    put("base", n.base);
+    put("axis", n.axis);
+    put("height", n.height);
+    put("spread", n.spread);
+    put("sharpness", n.sharpness);
+    out_ += ", \"prongs\": [";
+    for (std::size_t i = 0; i < n.prongs.size(); ++i)
+      fmt::format_to(std::back_inserter(out_), "{}{{\"angle_degrees\": {}, \"length\": {}}}", i == 0 ? "" : ", ",
+                     degrees_text(n.prongs[i].angle), n.prongs[i].length);
     out_ += ']';
+    if (n.section != FlareSection::kEnvelope) fmt::format_to(std::back_inserter(out_), ", \"section\": \"{}\"", name_of(n.section));
     end(n.strength);
   }
   void write(const Sphere& n, NodeId id) {

@@ -42,6 +42,7 @@ inline ChoiceEntries choice_entries(const Tape& tape, const Instruction& in) {
     case Op::kPrimitive:
     case Op::kHalfSpace:
     case Op::kChain:
+    case Op::kFlare:
     case Op::kSum:
     case Op::kRicci:
     case Op::kScale:

@@ -26,7 +26,7 @@ void forget_the_rest(const Tape& tape, std::vector<std::uint32_t>& winners, std:
     entry -= entries.count;
     const bool mattered = matters.back() != 0;
     matters.pop_back();
-    if (in.op == Op::kPrimitive || in.op == Op::kHalfSpace || in.op == Op::kChain) continue;
+    if (in.op == Op::kPrimitive || in.op == Op::kHalfSpace || is_swept(in.op)) continue;
     std::uint32_t* const own = winners.data() + entry;
     if (!mattered) std::fill_n(own, entries.count, Choices::kDoesNotMatter);
     for (std::uint32_t k = 0; k < in.count; ++k) {

@@ -1,5 +1,7 @@
 #include "blobtree/compile_shapes.h"
 
+#include "blobtree/interval_arithmetic.h"
+
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <span>
@@ -34,6 +36,12 @@ class ShapeCompiler {
   void operator()(const RoundCone& c) { const ChainNode ends[] = {{c.base, c.radius_base}, {c.tip, c.radius_tip}};
     chain(ends, c.strength); }
   void operator()(const Chain& c) { chain(c.nodes, c.strength); }
+  void operator()(const Flare& f) {
+    chain(f.nodes, f.strength);
+    compiled_.op = Op::kFlare;
+    tree_.chains.back().flare = static_cast<std::uint32_t>(tree_.flares.size());
+    tree_.flares.emplace_back(f);
+  }
   void operator()(const Sphere& s) {
     primitive(PointSkeleton<double>{s.center}, s.radius, s.strength);
   }
@@ -116,7 +124,6 @@ double across(const Vec3& axis, const Vec3& direction) {
   return std::sqrt(std::max(0.0, 1 - c * c));
 }
 Interval around(double center, double reach) { return {center - reach, center + reach}; }
-Interval hull(const Interval& a, const Interval& b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
 Interval along(const PointSkeleton<double>& k, const Vec3& d) { return around(glm::dot(k.center, d), 0); }
 Interval along(const SegmentSkeleton<double>& k, const Vec3& d) {
@@ -144,11 +151,12 @@ void compile_shape(CompiledTree& tree, CompiledNode& compiled, const Node& node)
 Interval support_along(const CompiledTree& tree, std::uint32_t atom, const Vec3& direction) {
   const CompiledNode& node = tree.node_of(atom);
   Interval bound;
-  if (node.op == Op::kChain) {
+  if (is_swept(node.op)) {
     const ChainNode* const ends = tree.segment_ends(node, atom);
     const ChainNode &a = ends[0], &b = ends[1];
-    bound = hull(around(glm::dot(a.position, direction), kSupportPerRadius * a.radius),
-                 around(glm::dot(b.position, direction), kSupportPerRadius * b.radius));
+    const double per_radius = kSupportPerRadius * tree.reach_of(node, atom);
+    bound = hull(around(glm::dot(a.position, direction), per_radius * a.radius),
+                 around(glm::dot(b.position, direction), per_radius * b.radius));
   } else if (node.op == Op::kHalfSpace) {
     return {-kInfinity, kInfinity};
   } else {
@@ -162,7 +170,7 @@ Interval support_along(const CompiledTree& tree, std::uint32_t atom, const Vec3&
 
 Box own_box(const CompiledTree& tree, std::uint32_t atom) {
   const CompiledNode& node = tree.node_of(atom);
-  if (node.op == Op::kChain) return segment_support(tree.segment_ends(node, atom));
+  if (is_swept(node.op)) return tree.segment_support(node, atom);
   Box box;
   for (int k = 0; k < 3; ++k) {
     Vec3 d(0.0);

@@ -99,10 +99,12 @@ SweptSegment<double> CompiledTree::segment_of(std::uint32_t atom) const {
   return {from.position, d / length, 0, length, from.radius, (to.radius - from.radius) / length};
 }
 
-Box segment_support(const ChainNode* ends) {
+Box CompiledTree::segment_support(const CompiledNode& node, std::uint32_t atom) const {
+  const ChainNode* const ends = segment_ends(node, atom);
+  const double per_radius = kSupportPerRadius * reach_of(node, atom);
   Box box;
   for (int k = 0; k < 2; ++k) {
-    const double reach = kSupportPerRadius * ends[k].radius;
+    const double reach = per_radius * ends[k].radius;
     box.extend(Box{ends[k].position - reach, ends[k].position + reach});
   }
   const Vec3 slack = 1e-9 * (box.hi - box.lo) + 1e-12 * (glm::abs(box.lo) + glm::abs(box.hi));
@@ -112,8 +114,8 @@ Box segment_support(const ChainNode* ends) {
 Box CompiledTree::bounds_of(std::uint32_t atom) const {
   const CompiledNode& node = node_of(atom);
   const Box box = run_bounds[run_of(atom)].box();
-  if (node.op != Op::kChain || node.warp != kNone) return box;
-  const Box own = Box::intersection(box, segment_support(segment_ends(node, atom)));
+  if (!is_swept(node.op) || node.warp != kNone) return box;
+  const Box own = Box::intersection(box, segment_support(node, atom));
   return own.empty() ? Box{} : own;
 }
 
@@ -129,7 +131,10 @@ double CompiledTree::radius_of(std::uint32_t atom) const {
 std::size_t CompiledTree::memory_bytes() const {
   const std::size_t of_nodes = bytes_of(nodes) + bytes_of(children) + bytes_of(blends) + bytes_of(laterals) + bytes_of(numbers) +
                                bytes_of(warps);
-  const std::size_t of_shapes = primitives.memory_bytes() + bytes_of(half_spaces) + bytes_of(chains) + bytes_of(chain_nodes);
+  std::size_t bytes_of_flares = bytes_of(flares);
+  for (const CompiledFlare& flare : flares) bytes_of_flares += bytes_of(flare.gaps);
+  const std::size_t of_shapes = primitives.memory_bytes() + bytes_of(half_spaces) + bytes_of(chains) + bytes_of(chain_nodes) +
+                                bytes_of_flares;
   const std::size_t of_atoms = bytes_of(leaves) + bytes_of(node_of_atom) + bytes_of(run_bounds) + bytes_of(run_begin) +
                                bytes_of(run_first_atom);
   return sizeof(*this) + of_nodes + of_shapes + of_atoms + index.memory_bytes() + ancestors.memory_bytes();

@@ -10,6 +10,7 @@
 #include "blobtree/atom_index.h"
 #include "blobtree/blobtree.h"
 #include "blobtree/float_box.h"
+#include "blobtree/flare.h"
 #include "blobtree/skeleton_primitives.h"
 #include "blobtree/warps.h"
 
@@ -25,9 +26,12 @@ namespace cambium {
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 enum class Op : std::uint8_t {
-  kPrimitive, kHalfSpace, kChain,
+  kPrimitive, kHalfSpace, kChain, kFlare,
   kSum, kUnion, kIntersection, kDifference, kRicci, kContact, kFork, kScale, kWarp
 };
+
+/// Made of atoms that are segments of a chain.
+inline bool is_swept(Op op) { return op == Op::kChain || op == Op::kFlare; }
 
 template <class T>
 using SkeletonShape = std::variant<PointSkeleton<T>, SegmentSkeleton<T>, ConeSkeleton<T>, DiscSkeleton<T>, CircleSkeleton<T>,
@@ -76,6 +80,7 @@ struct CompiledChain {
   double strength = 1;
   std::uint32_t first_node = 0;    ///< into chain_nodes; at least two, a lone one is kept twice
   std::uint32_t node_count = 0;
+  std::uint32_t flare = kNone;     ///< into flares; none of a plain chain
 };
 
 struct CompiledNode {
@@ -143,6 +148,7 @@ struct CompiledTree : std::enable_shared_from_this<CompiledTree> {
   std::vector<CompiledHalfSpace> half_spaces;
   std::vector<CompiledChain> chains;
   std::vector<ChainNode> chain_nodes;
+  std::vector<CompiledFlare> flares;
   std::vector<CompiledBlend> blends;
   std::vector<Lateral> laterals;
   std::vector<double> numbers;     ///< exponents and factors
@@ -176,6 +182,13 @@ struct CompiledTree : std::enable_shared_from_this<CompiledTree> {
   const ChainNode* segment_ends(const CompiledNode& node, std::uint32_t atom) const {
     return &chain_nodes[chains[node.payload].first_node + (atom - node.first_atom)];
   }
+  const CompiledFlare& flare_of(const CompiledNode& node) const { return flares[chains[node.payload].flare]; }
+  /// How many times as far as its chain's segment an atom reaches at most. 1 of a flare's atom: it is the chain's.
+  double reach_of(const CompiledNode& node, std::uint32_t atom) const {
+    return node.op == Op::kFlare ? flare_reach(flare_of(node), segment_ends(node, atom)) : 1;
+  }
+  /// Support of a segment, in the space of its chain or flare.
+  Box segment_support(const CompiledNode& node, std::uint32_t atom) const;
   /// World box outside of which an atom plays no part.
   Box bounds_of(std::uint32_t atom) const;
   CarriedCoordinates coordinates_of(std::uint32_t atom) const;
@@ -205,8 +218,6 @@ struct NativeAxis {
 };
 NativeAxis native_axis(const CompiledPrimitive& primitive);
 
-/// Support of a chain's segment, in the chain's own space; `ends` as from segment_ends.
-Box segment_support(const ChainNode* ends);
 Vec3 any_normal(const Vec3& axis);
 
 }  // namespace cambium

@@ -10,9 +10,12 @@
 // the direction (a, b, c) along the ray from the apex, across it in the axial plane and around the axis is
 // 2/(r cos(phi))^2 (b^2 cos(2 phi) - a b sin(2 phi) + c^2 cos^2(phi)), r at the nearest axis point, whose eigenvalues are
 // 2/r^2 (1, 1, -tan^2(phi)), and sin(phi) = |slope| x.
+//
+// A flare's Y is its chain's over M^2, and of M bounds are known as well (flare.h).
 #include "blobtree/course.h"
 
 #include "blobtree/evaluator_scratch.h"
+#include "blobtree/interval_arithmetic.h"
 #include "blobtree/tape_interval.h"
 
 #include <cmath>
@@ -86,11 +89,11 @@ SquaredRatio squared_ratio(const SeenSegment& seen, const Way& way) {
   return turned(y, kRadiusPerSupport / seen.least, way.turn);
 }
 
-/// Whether its support surely passes the ball.
-bool is_out_of_reach(const SweptSegment<double>& k, const Ball& ball) {
+/// Whether its support, `widening` times as wide, surely passes the ball.
+bool is_out_of_reach(const SweptSegment<double>& k, double widening, const Ball& ball) {
   const Vec3 from_middle = ball.center - (k.a + 0.5 * (k.begin + k.end) * k.axis);
   const double thickest = std::max(k.radius_at(k.begin), k.radius_at(k.end));
-  const double reach = 0.5 * (k.end - k.begin) + kSupportPerRadius * thickest * (1 + 1e-9) + ball.radius;
+  const double reach = 0.5 * (k.end - k.begin) + kSupportPerRadius * widening * thickest * (1 + 1e-9) + ball.radius;
   return glm::dot(from_middle, from_middle) > reach * reach;
 }
 
@@ -98,22 +101,34 @@ bool is_out_of_reach(const SweptSegment<double>& k, const Ball& ball) {
 Course falloff_course(const SquaredRatio& y, double strength) {
   const double near = std::max(0.0, 1 - y.value.lo), far = std::max(0.0, 1 - y.value.hi);
   const double least = 3 * far * far, most = 3 * near * near;
-  const Interval slope{y.slope.hi > 0 ? -most * y.slope.hi : -least * y.slope.hi, y.slope.lo < 0 ? -most * y.slope.lo : -least * y.slope.lo};
+  const Interval slope{y.slope.hi > 0 ? -times(most, y.slope.hi) : -times(least, y.slope.hi),
+                       y.slope.lo < 0 ? -times(most, y.slope.lo) : -times(least, y.slope.lo)};
   const Interval value{far * far * far, near * near * near};
-  if (strength >= 0) return {{strength * value.lo, strength * value.hi}, {strength * slope.lo, strength * slope.hi}};
-  return {{strength * value.hi, strength * value.lo}, {strength * slope.hi, strength * slope.lo}};
+  if (strength >= 0) return {{strength * value.lo, strength * value.hi}, {times(strength, slope.lo), times(strength, slope.hi)}};
+  return {{strength * value.hi, strength * value.lo}, {times(strength, slope.hi), times(strength, slope.lo)}};
 }
 
 /// Of a chain whose segments may have these ratios.
-Course nearest_course(std::span<const SquaredRatio> ratios, double strength) {
+SquaredRatio nearest_of(std::span<const SquaredRatio> ratios) {
   SquaredRatio nearest{{kInfinity, kInfinity}, {kInfinity, -kInfinity}};
   for (const SquaredRatio& y : ratios) nearest.value = {std::min(nearest.value.lo, y.value.lo), std::min(nearest.value.hi, y.value.hi)};
-  if (!(nearest.value.lo < 1)) return {};
   for (const SquaredRatio& y : ratios) {
     if (y.value.lo > nearest.value.hi) continue;
     nearest.slope = {std::min(nearest.slope.lo, y.slope.lo), std::max(nearest.slope.hi, y.slope.hi)};
   }
-  return falloff_course(nearest, strength);
+  return nearest;
+}
+
+/// Of Y / M^2.
+SquaredRatio widened(const SquaredRatio& y, const FlareCourse& m) {
+  const double least = m.factor.lo * m.factor.lo, most = m.factor.hi * m.factor.hi;
+  const Interval per_square{1 / most, 1 / least}, value{y.value.lo / most, y.value.hi / least};
+  return {value, y.slope * per_square + Interval{-2, -2} * value * m.log_slope};
+}
+
+FlareWay flare_way(const Way& way) {
+  if (!way.straight) return {way.ball, Vec3(0.0), way.fastest(), false};
+  return {way.ball, way.velocity, way.turn, !way.wide && way.turn == 0};
 }
 
 /// Squares of distances to convex sets have a second derivative in [0, 2]; a circle is none.
@@ -157,28 +172,16 @@ class CoursePolicy {
     if (value.lo > 0 && value.hi < 1) return {value, {ramp - more, ramp + more}};
     return {value, {std::min(0.0, ramp - more), std::max(0.0, ramp + more)}};
   }
-  /// The nearest of its segments counts: those that may be it.
   Course chain(const Instruction& in) const {
-    const Way& way = at_.ways[in.frame];
-    const auto segments = std::span(at_.shapes.segments() + in.first, in.count);
-    at_.ratios.clear();
-    if (way.straight) {
-      at_.seen.clear();
-      double nearest = kInfinity;   // at some place of the way at most
-      for (const SweptSegment<double>& segment : segments) {
-        if (is_out_of_reach(segment, way.ball)) continue;
-        const SeenSegment& it = at_.seen.emplace_back(seen(segment, way));
-        nearest = std::min(nearest, it.x + it.change);
-      }
-      for (const SeenSegment& it : at_.seen)
-        if ((it.x - it.change) * (1 - 1e-12) <= nearest) at_.ratios.push_back(squared_ratio(it, way));
-    } else {
-      for (const SweptSegment<double>& segment : segments) {
-        const Interval x = swept_ratio_interval(segment, way.ball);
-        at_.ratios.push_back(between(x.lo * kRadiusPerSupport, x.hi * kRadiusPerSupport, way.fastest() * kRadiusPerSupport / least_radius(segment)));
-      }
-    }
-    return nearest_course(at_.ratios, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
+    const SquaredRatio y = nearest(in, 1);
+    return y.value.lo < 1 ? falloff_course(y, view_.tree.chain_strength_of(view_.tree.nodes[in.node])) : Course{};
+  }
+  Course flare(const Instruction& in) const {
+    const CompiledNode& node = view_.tree.nodes[in.node];
+    const FlareCourse m = flare_course(view_.tree.flare_of(node), flare_way(at_.ways[in.frame]));
+    const SquaredRatio y = nearest(in, m.factor.hi);
+    if (!(y.value.lo < m.factor.hi * m.factor.hi)) return {};
+    return falloff_course(widened(y, m), view_.tree.chain_strength_of(node));
   }
   /// l = 1 - (1 - S(u)) (1 - S(w)), field.md section 4: u is linear along a straight way, and w's distance is convex.
   Course lateral_weight(const Lateral& lateral, const Instruction& in) const {
@@ -211,6 +214,30 @@ class CoursePolicy {
   }
 
  private:
+  /// The nearest of a chain's segments counts: those that may be it. Those that are out of reach of so much widening are left out.
+  SquaredRatio nearest(const Instruction& in, double widening) const {
+    const Way& way = at_.ways[in.frame];
+    const auto segments = std::span(at_.shapes.segments() + in.first, in.count);
+    at_.ratios.clear();
+    if (way.straight) {
+      at_.seen.clear();
+      double nearest = kInfinity;   // at some place of the way at most
+      for (const SweptSegment<double>& segment : segments) {
+        if (is_out_of_reach(segment, widening, way.ball)) continue;
+        const SeenSegment& it = at_.seen.emplace_back(seen(segment, way));
+        nearest = std::min(nearest, it.x + it.change);
+      }
+      for (const SeenSegment& it : at_.seen)
+        if ((it.x - it.change) * (1 - 1e-12) <= nearest) at_.ratios.push_back(squared_ratio(it, way));
+    } else {
+      for (const SweptSegment<double>& segment : segments) {
+        const Interval x = swept_ratio_interval(segment, way.ball);
+        at_.ratios.push_back(between(x.lo * kRadiusPerSupport, x.hi * kRadiusPerSupport, way.fastest() * kRadiusPerSupport / least_radius(segment)));
+      }
+    }
+    return nearest_of(at_.ratios);
+  }
+
   /// Of S' = 6 t (1 - t) on [0, 1], else 0.
   static Interval steps_slope(const Interval& t) {
     const double a = smooth_step_slope(t.lo), b = smooth_step_slope(t.hi);

@@ -1,5 +1,6 @@
 // Operators over courses: the value bounds are those of operators.h, the slopes follow the chain rule over intervals.
 #include "blobtree/course.h"
+#include "blobtree/interval_arithmetic.h"
 #include "blobtree/operators.h"
 
 #include <algorithm>
@@ -10,16 +11,7 @@
 namespace cambium {
 namespace {
 
-Interval operator+(const Interval& a, const Interval& b) { return {a.lo + b.lo, a.hi + b.hi}; }
-Interval hull(const Interval& a, const Interval& b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
-/// 0 times infinity is 0 here: a bound that does not count.
-double times(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
-Interval operator*(const Interval& a, const Interval& b) {
-  const double ll = times(a.lo, b.lo), lh = times(a.lo, b.hi), hl = times(a.hi, b.lo), hh = times(a.hi, b.hi);
-  return {std::min({ll, lh, hl, hh}), std::max({ll, lh, hl, hh})};
-}
-constexpr double kNegligible = 1e-9;                  // bounds are wider than values by less
-constexpr Interval kNothing{kInfinity, -kInfinity};   // hull's neutral
+constexpr double kNegligible = 1e-9;   // bounds are wider than values by less
 
 /// Children's values in a row, as the rules for intervals want them; few enough to stay on the stack mostly.
 class Values {

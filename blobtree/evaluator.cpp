@@ -21,12 +21,12 @@ class BallPolicy {
     return half_space_interval(view_.tree.half_spaces[view_.tree.nodes[in.node].payload], balls_[in.frame].ball);
   }
   Interval chain(const Instruction& in) const {
-    Interval x{kInfinity, kInfinity};
-    for (std::uint32_t i = in.first; i < in.first + in.count; ++i) {
-      const Interval s = swept_ratio_interval(shapes_.segments()[i], balls_[in.frame].ball);
-      x = {std::min(x.lo, s.lo), std::min(x.hi, s.hi)};
-    }
-    return chain_interval(x, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
+    return chain_interval(ratio(in), view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
+  }
+  Interval flare(const Instruction& in) const {
+    const CompiledNode& node = view_.tree.nodes[in.node];
+    const Interval factor = flare_factor_interval(view_.tree.flare_of(node), balls_[in.frame].ball);
+    return flare_interval(ratio(in), factor, view_.tree.chain_strength_of(node));
   }
   Interval lateral_weight(const Lateral& lateral, const Instruction& in) const {
     return lateral_contact_weight_interval(lateral, balls_[in.frame].ball);
@@ -38,6 +38,16 @@ class BallPolicy {
   }
 
  private:
+  /// Of the nearest of a chain's segments.
+  Interval ratio(const Instruction& in) const {
+    Interval x{kInfinity, kInfinity};
+    for (std::uint32_t i = in.first; i < in.first + in.count; ++i) {
+      const Interval s = swept_ratio_interval(shapes_.segments()[i], balls_[in.frame].ball);
+      x = {std::min(x.lo, s.lo), std::min(x.hi, s.hi)};
+    }
+    return x;
+  }
+
   const TapeView& view_;
   const std::vector<UnwarpedBall>& balls_;
   const GatheredShapes& shapes_;
@@ -50,6 +60,7 @@ class TraitsPolicy {
   TraitedValue primitive(const Instruction& in) const { return {point_.primitive(in), {}}; }
   TraitedValue half_space(const Instruction& in) const { return {point_.half_space(in), {1, 0, 0}}; }
   TraitedValue chain(const Instruction& in) const { return {point_.chain(in), {}}; }
+  TraitedValue flare(const Instruction& in) const { return {point_.flare(in), {}}; }
   TraitedValue lateral_weight(const Lateral& l, const Instruction& in) const { return {point_.lateral_weight(l, in), {}}; }
   TraitedValue warp(const Instruction&, const TraitedValue& f) const { return f; }
 
@@ -153,8 +164,8 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
   for (const Instruction& in : view.tape.instructions()) {
     const CompiledNode& node = tree.nodes[in.node];
     const Op op = in.op;
-    if (node.subtracted || (op != Op::kPrimitive && op != Op::kChain)) continue;
-    const Dual<double> weight = op == Op::kChain ? policy.chain(in) : policy.primitive(in);
+    if (node.subtracted || (op != Op::kPrimitive && !is_swept(op))) continue;
+    const Dual<double> weight = op == Op::kPrimitive ? policy.primitive(in) : op == Op::kChain ? policy.chain(in) : policy.flare(in);
     if (!(weight.f > 0)) continue;
     Contribution c;
     c.weight = weight.f;
@@ -171,7 +182,7 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
       c.u = turns(std::atan2(glm::dot(from, to_side), glm::dot(from, at.u)));
       if (c.from_axis > 0) c.u_gradient = glm::cross(at.axis, across) / (2 * std::numbers::pi * c.from_axis * c.from_axis);
     };
-    if (op == Op::kChain) {
+    if (is_swept(op)) {
       double best = kInfinity;
       std::uint32_t winner = in.first;
       for (std::uint32_t i = in.first; i < in.first + in.count; ++i) {
@@ -183,6 +194,7 @@ void Evaluator::contributions(const PrunedField& field, const Vec3& p, std::vect
       }
       const SweptSegment<double>& segment = s.shapes.segments()[winner];
       c.radius = segment.radius_at(closest_parameter(segment, q - segment.a));
+      if (op == Op::kFlare) c.radius *= flare_widening(tree.flare_of(node), q);
       const auto slots = view.tape.slots();
       const auto between = [&] {
         const SweptSegment<double>& at = s.shapes.segments()[winner];

@@ -25,7 +25,7 @@ class GatheredShapes {
     primitives_.clear();
     for (std::size_t i = 0; i < place_.size(); ++i) {
       const Instruction& in = tape.instructions()[i];
-      if (in.op == Op::kChain) {
+      if (is_swept(in.op)) {
         for (std::uint32_t k = in.first; k < in.first + in.count; ++k) segments_[k] = tree.segment_of(tape.slots()[k]);
       } else if (in.op == Op::kPrimitive) {
         place_[i] = static_cast<std::uint32_t>(primitives_.size());
@@ -97,20 +97,20 @@ class PointPolicy {
     return half_space_of<N>(glm::dot(at_.points[in.frame] - h.point, h.normal), h.normal, h.width);
   }
   N chain(const Instruction& in) const {
-    const Vec3& p = at_.points[in.frame];
-    const SweptSegment<double>* const segments = at_.shapes.segments() + in.first;
-    double best = kInfinity;
-    std::uint32_t winner = 0;
-    for (std::uint32_t i = 0; i < in.count; ++i) {
-      const double x = swept_ratio(segments[i], p);
-      if (x < best) {
-        best = x;
-        winner = i;
-      }
+    return falloff_of<N>(swept(in), kRadiusPerSupport, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
+  }
+  N flare(const Instruction& in) const {
+    const CompiledNode& node = view_.tree.nodes[in.node];
+    const CompiledFlare& flare = view_.tree.flare_of(node);
+    Distance<double> d = swept(in);
+    if constexpr (std::is_floating_point_v<N>) {
+      d.value /= flare_factor(flare, at_.points[in.frame]);
+    } else {
+      const FlareFactor m = flare_factor_gradient(flare, at_.points[in.frame]);
+      d.value /= m.value;
+      d.gradient = d.gradient / m.value - d.value * m.log_gradient;
     }
-    Distance<double> d{best, Vec3(0.0)};
-    if constexpr (!std::is_floating_point_v<N>) d = swept_ratio_gradient(segments[winner], p);
-    return falloff_of<N>(d, kRadiusPerSupport, view_.tree.chain_strength_of(view_.tree.nodes[in.node]));
+    return falloff_of<N>(d, kRadiusPerSupport, view_.tree.chain_strength_of(node));
   }
   N lateral_weight(const Lateral& lateral, const Instruction& in) const {
     return lateral_contact_weight<N>(lateral, at_.points[in.frame] - lateral.point);
@@ -124,6 +124,23 @@ class PointPolicy {
   }
 
  private:
+  /// The ratio of the nearest segment, and its gradient if one is asked for.
+  Distance<double> swept(const Instruction& in) const {
+    const Vec3& p = at_.points[in.frame];
+    const SweptSegment<double>* const segments = at_.shapes.segments() + in.first;
+    double best = kInfinity;
+    std::uint32_t winner = 0;
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const double x = swept_ratio(segments[i], p);
+      if (x < best) {
+        best = x;
+        winner = i;
+      }
+    }
+    if constexpr (std::is_floating_point_v<N>) return {best, Vec3(0.0)};
+    return swept_ratio_gradient(segments[winner], p);
+  }
+
   const TapeView& view_;
   const Evaluator::Scratch& at_;
 };

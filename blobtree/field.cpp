@@ -23,7 +23,7 @@ std::vector<std::uint32_t> atoms_of(const Tape& tape) {
   atoms.reserve(tape.atom_count());
   for (const Instruction& in : tape.instructions()) {
     if (in.op == Op::kPrimitive || in.op == Op::kHalfSpace) atoms.push_back(in.first);
-    if (in.op != Op::kChain) continue;
+    if (!is_swept(in.op)) continue;
     const auto segments = tape.slots().subspan(in.first, in.count);
     atoms.insert(atoms.end(), segments.begin(), segments.end());
   }

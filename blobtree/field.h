@@ -35,7 +35,7 @@ struct Contribution {
   double weight = 0;
   double u = 0;        ///< turns, [0, 1)
   double v = 0;        ///< metres along the branch axis, straight on beyond its ends
-  double radius = 0;   ///< local surface radius, metres
+  double radius = 0;   ///< local surface radius, metres; of a flare in its valleys, the same all around
   double from_axis = 0;             ///< metres from the line through the nearest piece of the axis
   Vec3 weight_gradient{0.0};        ///< 1/m
   Vec3 u_gradient{0.0};             ///< turns per metre, around the branch; where a chain turns it leaves that out

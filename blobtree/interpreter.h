@@ -1,6 +1,6 @@
 // Runs the tape of a pruned field over any kind of value: numbers, numbers with gradients, intervals, surface traits.
 // Private to blobtree/. A Policy knows the point (or ball, or lane) and supplies:
-//   Value primitive(const Instruction&), half_space(const Instruction&), chain(const Instruction&),
+//   Value primitive(const Instruction&), half_space(const Instruction&), chain(const Instruction&), flare(const Instruction&),
 //         lateral_weight(const Lateral&, const Instruction&), warp(const Instruction&, const Value&)
 #pragma once
 
@@ -79,6 +79,10 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
       stack[top++] = policy.chain(in);
       continue;
     }
+    if (op == Op::kFlare) {
+      stack[top++] = policy.flare(in);
+      continue;
+    }
     if (op == Op::kHalfSpace) {
       stack[top++] = policy.half_space(in);
       continue;
@@ -113,7 +117,8 @@ Value run_tape(const TapeView& view, Policy& policy, TapeScratch<Value>& scratch
       }
       case Op::kPrimitive:
       case Op::kHalfSpace:
-      case Op::kChain: break;
+      case Op::kChain:
+      case Op::kFlare: break;
     }
     ++top;
   }

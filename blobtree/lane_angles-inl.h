@@ -1,5 +1,5 @@
-// Sine, cosine and angles in vector lanes of double, of products and sums that are never fused: the same bits whatever the
-// vector instructions. Included by lane_warps-inl.h once for each set of them. Private to blobtree/.
+// Sine, cosine and angles in vector lanes, of products and sums that are never fused: the same bits whatever the vector
+// instructions. Included by lane_warps-inl.h once for each set of them. Private to blobtree/.
 #if defined(CAMBIUM_BLOBTREE_LANE_ANGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAMBIUM_BLOBTREE_LANE_ANGLES_INL_H
 #undef CAMBIUM_BLOBTREE_LANE_ANGLES_INL_H
@@ -20,9 +20,9 @@ namespace cambium {
 namespace HWY_NAMESPACE {
 
 /// c[0] + c[1] x + c[2] x^2 ..., even and odd powers by themselves: two short chains of operations, not a long one.
-template <std::size_t kTerms>
-HWY_INLINE Lanes<double> polynomial(const std::array<double, kTerms>& c, Lanes<double> x) {
-  using V = Lanes<double>;
+template <class T, std::size_t kTerms>
+HWY_INLINE Lanes<T> polynomial(const std::array<T, kTerms>& c, Lanes<T> x) {
+  using V = Lanes<T>;
   constexpr std::size_t kLastEven = (kTerms - 1) / 2 * 2, kLastOdd = kTerms / 2 * 2 - 1;
   const V x2 = x * x;
   V even(c[kLastEven]), odd(c[kLastOdd]);
@@ -32,13 +32,13 @@ HWY_INLINE Lanes<double> polynomial(const std::array<double, kTerms>& c, Lanes<d
 }
 
 /// From the term of a^power on, in powers of a^2: Taylor's series of sine and cosine.
-template <std::size_t kTerms>
-constexpr std::array<double, kTerms> taylor_terms(int power) {
-  std::array<double, kTerms> terms{};
+template <std::size_t kTerms, class T = double>
+constexpr std::array<T, kTerms> taylor_terms(int power) {
+  std::array<T, kTerms> terms{};
   double term = power / 2 % 2 == 0 ? 1 : -1;
   for (int n = 2; n <= power; ++n) term /= n;
-  for (double& t : terms) {
-    t = term;
+  for (T& t : terms) {
+    t = static_cast<T>(term);
     term /= -(power + 1.0) * (power + 2.0);
     power += 2;
   }
@@ -46,12 +46,12 @@ constexpr std::array<double, kTerms> taylor_terms(int power) {
 }
 
 /// The same of the arc tangent.
-template <std::size_t kTerms>
-constexpr std::array<double, kTerms> arc_tangent_terms(int power) {
-  std::array<double, kTerms> terms{};
+template <std::size_t kTerms, class T>
+constexpr std::array<T, kTerms> arc_tangent_terms(int power) {
+  std::array<T, kTerms> terms{};
   double sign = power / 2 % 2 == 0 ? 1 : -1;
-  for (double& t : terms) {
-    t = sign / power;
+  for (T& t : terms) {
+    t = static_cast<T>(sign / power);
     sign = -sign;
     power += 2;
   }
@@ -83,20 +83,22 @@ HWY_INLINE SineAndCosine sine_and_cosine(Lanes<double> a) {
   return {V(hn::Xor(select(odd, cosine, sine).v, sine_sign)), V(hn::Xor(select(odd, sine, cosine).v, cosine_sign))};
 }
 
-/// The angle of (x, y) from the y axis towards the x axis, in [-pi, pi]: atan2(x, y), within 5e-16; 0 at the origin.
-HWY_INLINE Lanes<double> angle_from_y(Lanes<double> x, Lanes<double> y) {
-  using V = Lanes<double>;
+/// The angle of (x, y) from the y axis towards the x axis, in [-pi, pi]: atan2(x, y), within 5e-16, of floats 3e-7; 0 at the origin.
+template <class T>
+HWY_INLINE Lanes<T> angle_from_y(Lanes<T> x, Lanes<T> y) {
+  using V = Lanes<T>;
   constexpr double kPi = std::numbers::pi;
   constexpr double kTan1 = 0.19891236737965800691, kTan2 = 0.41421356237309504880, kTan3 = 0.66817863791929891999;
   const V across(hn::Abs(x.v)), along(hn::Abs(y.v)), shorter = smaller(across, along), longer = larger(across, along);
   // kTan1, 2, 3: of pi/16, pi/8, 3 pi/16.
   // Of (longer, shorter), at most pi/4; measured from 0, pi/8 or pi/4, whichever is nearest: at most pi/16 from there.
-  const Condition<double> from_first = shorter > V(kTan1) * longer, from_second = shorter > V(kTan3) * longer;
+  const Condition<T> from_first = shorter > V(kTan1) * longer, from_second = shorter > V(kTan3) * longer;
   const V base = or_zero(from_first, select(from_second, V(kPi / 4), V(kPi / 8)));
   const V slope = or_zero(from_first, select(from_second, V(1), V(kTan2)));
-  const V divisor = larger(longer + slope * shorter, V(std::numeric_limits<double>::min()));
+  const V divisor = larger(longer + slope * shorter, V(std::numeric_limits<T>::min()));
   const V t = (shorter - slope * longer) / divisor, t2 = t * t;
-  static constexpr std::array kTerms = arc_tangent_terms<10>(3);   // the next one would be less than 2e-17 of t
+  // The next one would be less than 2e-17 of t; for floats 2e-9.
+  static constexpr std::array kTerms = arc_tangent_terms<sizeof(T) == sizeof(double) ? 10 : 4, T>(3);
   const V angle = base + (t + t * t2 * polynomial(kTerms, t2));
   const V from_along = select(across > along, V(kPi / 2) - angle, angle);
   const V from_y = select(y < V(0), V(kPi) - from_along, from_along);

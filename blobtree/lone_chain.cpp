@@ -20,6 +20,7 @@ bool is_blend(Op op) {
     case Op::kPrimitive:
     case Op::kHalfSpace:
     case Op::kChain:
+    case Op::kFlare:
     case Op::kIntersection:
     case Op::kDifference:
     case Op::kScale:
@@ -55,7 +56,7 @@ void ActiveChain::append(const PrunedField& field, std::vector<ActiveChain>& cha
   if (field.empty()) return;
   const auto instructions = field.tape_->instructions();
   for (std::size_t i = 0; i < instructions.size(); ++i) {
-    if (instructions[i].op == Op::kChain && instructions[i].frame == 0) chains.push_back(ActiveChain(*field.tree_, *field.tape_, i));
+    if (is_swept(instructions[i].op) && instructions[i].frame == 0) chains.push_back(ActiveChain(*field.tree_, *field.tape_, i));
   }
 }
 

@@ -1,5 +1,6 @@
 // Cells in which nothing but one chain is active: there the surface is exactly the sphere-swept polyline of that chain
-// (field.md section 3), and can be met or followed in closed form.
+// (field.md section 3), and can be met or followed in closed form. A flare is such a chain in cells where only those of its segments are
+// active that are nowhere widened.
 #pragma once
 
 #include "blobtree/field.h"
@@ -18,7 +19,7 @@ class Tape;
 /// A chain that is active in a pruned field, in world space. A view: valid while the field (or its cover) lives. Cheap to copy.
 class ActiveChain {
  public:
-  /// Appends all that are, lone or not, but for warped ones. Cost: linear in the tape.
+  /// Appends all that are, lone or not, flares as the chains that they are made of, but for warped ones. Cost: linear in the tape.
   static void append(const PrunedField& field, std::vector<ActiveChain>& chains);
   /// The chains of a field that is nowhere below the largest of them nor above their sum: all that is active are chains of strength 1,
   /// not warped, under sums, unions, contacts, forks and Ricci blends. Where all but one are 0 the field is that one's. None if

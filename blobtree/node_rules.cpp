@@ -1,5 +1,7 @@
 #include "blobtree/node_rules.h"
 
+#include "blobtree/flare.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +9,8 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace cambium {
 namespace {
@@ -14,6 +18,10 @@ namespace {
 std::string show(double v) { return fmt::format("{}", v); }
 std::string show(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 std::string at(const char* list, std::size_t i) { return fmt::format("{}[{}]", list, i); }
+
+double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+constexpr double kSmallestGap = 1e-6;    // radians: between prongs that are nearer there is nothing to see
+constexpr double kLargestSpread = 1000;
 
 using Key = std::string_view;
 
@@ -66,16 +74,48 @@ void check(const RoundCone& n) {
   check_positive("radius_tip", n.radius_tip);
 }
 
-void check(const Chain& n) {
-  check_at_least_one("nodes", n.nodes.size());
-  for (std::size_t i = 0; i < n.nodes.size(); ++i) {
-    const auto& [p, radius] = n.nodes[i];
+void check_chain_nodes(const std::vector<ChainNode>& nodes) {
+  check_at_least_one("nodes", nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto& [p, radius] = nodes[i];
     const bool legal = within(p.x, kLargestLength) && within(p.y, kLargestLength) && within(p.z, kLargestLength) &&
                        radius >= kSmallestLength && radius <= kLargestLength;
     if (!legal)  // the key is only built when it is needed: chains are long
       refuse(at("nodes", i), fmt::format("[{}, {}, {}, {}]", p.x, p.y, p.z, radius),
              "finite x, y, z and a positive radius in metres, at most 1e9");
   }
+}
+
+void check(const Chain& n) { check_chain_nodes(n.nodes); }
+
+void check_prongs(const std::vector<Prong>& prongs) {
+  check_at_least_one("prongs", prongs.size());
+  std::vector<std::pair<double, std::size_t>> around;   // by angle in [0, 2 pi)
+  for (std::size_t i = 0; i < prongs.size(); ++i) {
+    const auto& [angle, length] = prongs[i];
+    if (!within(angle, kLargestLength)) refuse(at("prongs", i) + ".angle_degrees", show(degrees(angle)), "a finite number");
+    if (!(length >= 0 && length <= kLargestLength)) refuse(at("prongs", i) + ".length", show(length), "a number from 0 to 1e9");
+    around.emplace_back(wrapped_angle(angle), i);
+  }
+  std::sort(around.begin(), around.end());
+  for (std::size_t k = 0; k < around.size() && around.size() > 1; ++k) {
+    const bool last = k + 1 == around.size();
+    const auto& [from, i] = around[k];
+    const auto& [to, j] = around[last ? 0 : k + 1];
+    if (to + (last ? 2 * std::numbers::pi : 0.0) - from < kSmallestGap)
+      refuse(at("prongs", std::max(i, j)) + ".angle_degrees", show(degrees(prongs[std::max(i, j)].angle)),
+             fmt::format("an angle other than that of prongs[{}]", std::min(i, j)));
+  }
+}
+
+void check(const Flare& n) {
+  check_chain_nodes(n.nodes);
+  check_point("base", n.base);
+  check_direction("axis", n.axis);
+  check_positive("height", n.height);
+  if (!(n.spread >= 0 && n.spread <= kLargestSpread)) refuse("spread", show(n.spread), "a number from 0 to 1000");
+  if (!(n.sharpness >= 0 && n.sharpness <= kSharpest)) refuse("sharpness", show(n.sharpness), "a number from 0 to 0.95");
+  check_prongs(n.prongs);
 }
 
 void check(const Sphere& n) {
@@ -179,7 +219,7 @@ void check(const Bend& n) {
   check_point("to", n.to);
   check_direction("direction", n.direction);
   if (!(std::abs(n.angle) < 2 * std::numbers::pi))
-    refuse("angle_degrees", show(n.angle * 180 / std::numbers::pi), "an angle between -360 and 360 degrees");
+    refuse("angle_degrees", show(degrees(n.angle)), "an angle between -360 and 360 degrees");
   const Vec3 along = n.to - n.from;
   const double length = glm::length(along);
   if (!(length >= kSmallestLength)) refuse("to", show(n.to), "a point other than `from`");
@@ -191,7 +231,7 @@ void check(const Bend& n) {
 void check(const Twist& n) {
   check_point("point", n.point);
   check_direction("axis", n.axis);
-  if (!within(n.rate, kLargestLength)) refuse("rate_degrees_per_metre", show(n.rate * 180 / std::numbers::pi), "a finite number");
+  if (!within(n.rate, kLargestLength)) refuse("rate_degrees_per_metre", show(degrees(n.rate)), "a finite number");
 }
 
 void check(const Taper& n) {

@@ -17,6 +17,13 @@ namespace cambium {
 /// A part of a pool.
 struct KeptRange { std::uint32_t first = 0, count = 0; };
 struct KeptChain { KeptRange nodes; double strength = 1; };
+struct KeptFlare {
+  KeptRange nodes, prongs;
+  Vec3 base, axis;
+  double height = 0, spread = 0, sharpness = 0;
+  FlareSection section = FlareSection::kEnvelope;
+  double strength = 1;
+};
 struct KeptRicci { KeptRange children; double exponent = 1; };
 struct KeptContact { KeptRange children; double width = kIso, lip = 0; };
 /// children begin with the axis; the laterals are one fewer.
@@ -42,6 +49,8 @@ struct KeptAs<T> { using type = KeptRange; };
 template <>
 struct KeptAs<Chain> { using type = KeptChain; };
 template <>
+struct KeptAs<Flare> { using type = KeptFlare; };
+template <>
 struct KeptAs<Ricci> { using type = KeptRicci; };
 template <>
 struct KeptAs<Contact> { using type = KeptContact; };
@@ -56,7 +65,7 @@ class NodeStore {
   Node node(NodeId id) const;
   /// A fork's axis first; empty for primitives.
   std::span<const NodeId> children(NodeId id) const;
-  /// Empty unless the node is a chain.
+  /// Empty unless the node is a chain or a flare.
   std::span<const ChainNode> chain_nodes(NodeId id) const;
   /// Empty unless the node is a fork.
   std::span<const Lateral> laterals(NodeId id) const;
@@ -78,19 +87,20 @@ class NodeStore {
   template <KeptAsChildren T>
   KeptRange pack(T& node) { return pooled(node.children); }
   KeptChain pack(Chain& node);
+  KeptFlare pack(Flare& node);
   KeptRicci pack(Ricci& node) { return {pooled(node.children), node.exponent}; }
   KeptContact pack(Contact& node) { return {pooled(node.children), node.width, node.lip}; }
   KeptFork pack(Fork& node);
   KeptRange pooled(const std::vector<NodeId>& children);
+  KeptRange pooled(std::vector<ChainNode>&& nodes);
 
   template <class T>
   T unpacked(const typename KeptAs<T>::type& kept) const;
   template <class T>
   std::span<const NodeId> children_of_kept(const typename KeptAs<T>::type& kept) const;
   std::span<const NodeId> children(const KeptRange& range) const { return {children_.data() + range.first, range.count}; }
-  std::span<const ChainNode> nodes(const KeptChain& kept) const {
-    return {chain_nodes_.data() + kept.nodes.first, kept.nodes.count};
-  }
+  std::span<const ChainNode> nodes(const KeptRange& range) const { return {chain_nodes_.data() + range.first, range.count}; }
+  std::span<const Prong> prongs(const KeptRange& range) const { return {prongs_.data() + range.first, range.count}; }
   std::span<const Lateral> laterals(const KeptFork& kept) const {
     return {laterals_.data() + kept.first_lateral, kept.children.count - 1};
   }
@@ -101,6 +111,7 @@ class NodeStore {
   std::vector<NodeId> children_;
   std::vector<ChainNode> chain_nodes_;
   std::vector<Lateral> laterals_;
+  std::vector<Prong> prongs_;
 };
 
 }  // namespace cambium

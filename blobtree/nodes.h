@@ -24,6 +24,20 @@ struct Cone { Vec3 base, tip; double radius_base = 0, radius_tip = 0; double str
 struct RoundCone { Vec3 base, tip; double radius_base = 0, radius_tip = 0; double strength = 1; };
 struct ChainNode { Vec3 position; double radius = 0; };
 struct Chain { std::vector<ChainNode> nodes; double strength = 1; };
+/// Cross-sections of a flare (blobtree/flare_sections-inl.h): of ellipses' envelope, which is an astroid for four sharp prongs; of the
+/// quadrifolium's petals on a disc; of a circle shifted towards each prong.
+enum class FlareSection : std::uint8_t { kEnvelope, kQuadrifolium, kCircle };
+struct Prong { double angle = 0, length = 1; };                ///< length: how sharp it is, as a factor
+/// A chain that is wider at its base (field.md section 6b): a circle at `height` above it, and from there down ever more spread
+/// and pronged. Prongs stand at angles about the axis, right-handed from the x axis made orthogonal to it (y axis if parallel).
+struct Flare {
+  std::vector<ChainNode> nodes;
+  Vec3 base, axis;
+  double height = 0, spread = 0, sharpness = 0;
+  std::vector<Prong> prongs;
+  FlareSection section = FlareSection::kEnvelope;
+  double strength = 1;
+};
 struct Sphere { Vec3 center; double radius = 0; double strength = 1; };
 struct Capsule { Vec3 a, b; double radius = 0; double strength = 1; };
 struct Disc { Vec3 center, normal; double disc_radius = 0, radius = 0; double strength = 1; };
@@ -48,7 +62,7 @@ struct Twist { Vec3 point, axis; double rate = 0; NodeId child = 0; };  ///< rad
 struct Taper { Vec3 point, axis; double from_height = 0, from_scale = 1, to_height = 1, to_scale = 1; NodeId child = 0; };
 
 using Node = std::variant<Cone, RoundCone, Chain, Sphere, Capsule, Disc, Torus, RotatedBox, HalfSpace, Sum, Union,
-                          Intersection, Difference, Ricci, Contact, Fork, ScaleField, Transform, Bend, Twist, Taper>;
+                          Intersection, Difference, Ricci, Contact, Fork, ScaleField, Transform, Bend, Twist, Taper, Flare>;
 
 /// The place of a node type in Node: what BlobTree::kind() gives.
 template <class T>

@@ -1,13 +1,13 @@
 #include "blobtree/operators.h"
 
+#include "blobtree/interval_arithmetic.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace cambium {
 namespace {
-
-Interval hull(const Interval& a, const Interval& b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
 
 /// Rounding in the bounds themselves must not make them wrong by a bit.
 Interval widened(const Interval& a) {

@@ -137,7 +137,7 @@ class CoverRun : public CellRun {
   Box occupied(const Tape& tape) const {
     Box support;
     for (const Instruction& in : tape.instructions()) {
-      if (in.op == Op::kChain) {
+      if (is_swept(in.op)) {
         for (std::uint32_t i = in.first; i < in.first + in.count; ++i) support.extend(shared_.tree.bounds_of(tape.slots()[i]));
       } else if (in.op == Op::kPrimitive || in.op == Op::kHalfSpace) {
         support.extend(shared_.tree.bounds_of(in.first));

@@ -62,7 +62,7 @@ TapeBuilder::Value TapeBuilder::leaf(std::uint32_t atom) {
   const std::uint32_t node = tree_.node_of_atom[atom];
   const CompiledNode& n = tree_.nodes[node];
   tape_.smallest_radius_ = std::min(tape_.smallest_radius_, tree_.radius_of(atom));
-  if (n.op == Op::kChain) return {node, atom, {n.can_be_negative, n.can_exceed_one}, true};
+  if (is_swept(n.op)) return {node, atom, {n.can_be_negative, n.can_exceed_one}, true};
   emit(n.op, node, n.warp, false, atom, 1);
   tape_.stack_size_ = std::max(tape_.stack_size_, ++depth_);
   return {node, atom, {n.can_be_negative, n.can_exceed_one}, false};
@@ -116,9 +116,13 @@ TapeBuilder::Value TapeBuilder::apply(std::uint32_t node, std::span<const Value>
   const auto count = static_cast<std::uint32_t>(children.size());
   const bool with_zero = count < n.child_count;
   Value result{node, children[0].atom, {n.can_be_negative, n.can_exceed_one}, false};
-  if (n.op == Op::kChain) {
-    for (const Value& c : children) slots_.push_back(c.atom);
-    emit(n.op, node, n.warp, false, first, count);
+  if (is_swept(n.op)) {
+    bool is_chain = true;   // so is a flare of which only what stands above it is active
+    for (const Value& c : children) {
+      slots_.push_back(c.atom);
+      is_chain = is_chain && tree_.reach_of(n, c.atom) == 1;
+    }
+    emit(is_chain ? Op::kChain : Op::kFlare, node, n.warp, false, first, count);
     tape_.stack_size_ = std::max(tape_.stack_size_, ++depth_);
     return result;
   }

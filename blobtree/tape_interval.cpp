@@ -13,15 +13,22 @@ class ListedPolicy {
 
   Interval primitive(const Instruction&) { return *next_++; }
   Interval half_space(const Instruction&) { return *next_++; }
-  Interval chain(const Instruction& in) {
-    Interval ratio = *next_++;
-    for (std::uint32_t i = 1; i < in.count; ++i, ++next_) ratio = {std::min(ratio.lo, next_->lo), std::min(ratio.hi, next_->hi)};
-    return chain_interval(ratio, tree_.chain_strength_of(tree_.nodes[in.node]));
+  Interval chain(const Instruction& in) { return chain_interval(ratio(in), tree_.chain_strength_of(tree_.nodes[in.node])); }
+  Interval flare(const Instruction& in) {
+    const CompiledNode& node = tree_.nodes[in.node];
+    return flare_interval(ratio(in), flare_factor_interval(tree_.flare_of(node), ball_), tree_.chain_strength_of(node));
   }
   Interval lateral_weight(const Lateral& lateral, const Instruction&) const { return lateral_contact_weight_interval(lateral, ball_); }
   Interval warp(const Instruction&, const Interval& f) const { return f; }
 
  private:
+  /// Of the nearest of a chain's segments.
+  Interval ratio(const Instruction& in) {
+    Interval ratio = *next_++;
+    for (std::uint32_t i = 1; i < in.count; ++i, ++next_) ratio = {std::min(ratio.lo, next_->lo), std::min(ratio.hi, next_->hi)};
+    return ratio;
+  }
+
   const CompiledTree& tree_;
   const Interval* next_;
   const Ball& ball_;

@@ -21,4 +21,9 @@ inline Interval chain_interval(const Interval& ratio, double strength) {
   return falloff_interval(ratio.lo * kRadiusPerSupport * (1 - 1e-12), ratio.hi * kRadiusPerSupport * (1 + 1e-12), strength);
 }
 
+/// Of a flare, whose M has those bounds.
+inline Interval flare_interval(const Interval& ratio, const Interval& factor, double strength) {
+  return chain_interval({ratio.lo / factor.hi, ratio.hi / factor.lo}, strength);
+}
+
 }  // namespace cambium

@@ -85,7 +85,8 @@ class TreeCompiler {
     };
     switch (n.op) {
       case Op::kPrimitive: of_strength(tree_.primitive_of(n).strength); break;
-      case Op::kChain: of_strength(tree_.chain_strength_of(n)); break;
+      case Op::kChain:
+      case Op::kFlare: of_strength(tree_.chain_strength_of(n)); break;
       case Op::kHalfSpace: range = {0, 1}; break;
       case Op::kSum:
         range = sum_of(f.data(), f.size());
@@ -144,7 +145,7 @@ class TreeCompiler {
       tree_.run_first_atom.push_back(atom);
       tree_.run_begin.push_back(at);
     };
-    if (n.op != Op::kChain) {
+    if (!is_swept(n.op)) {
       const Vec3 axis = n.op == Op::kHalfSpace ? Vec3(0, 0, 1) : native_axis(tree_.primitive_of(n)).axis;
       begin_run(n.first_atom, begin_with(axis).at_atom());
       tree_.node_of_atom.push_back(id);
@@ -368,6 +369,7 @@ class TreeCompiler {
     tree_.primitives.shrink_to_fit();
     tree_.chains.shrink_to_fit();
     tree_.chain_nodes.shrink_to_fit();
+    tree_.flares.shrink_to_fit();
     tree_.blends.shrink_to_fit();
     tree_.laterals.shrink_to_fit();
     tree_.warps.shrink_to_fit();

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 namespace cambium::reference {
 
@@ -54,11 +56,66 @@ inline double segment_ratio(const ChainNode& from, const ChainNode& to, const Ve
   return glm::length(q - t * d) / (r + t * growth);
 }
 
-inline double value(const Chain& n, const Vec3& p) {
-  double ratio = segment_ratio(n.nodes.front(), n.nodes.front(), p);
-  if (n.nodes.size() > 1) ratio = kInfinity;
-  for (std::size_t i = 1; i < n.nodes.size(); ++i) ratio = std::min(ratio, segment_ratio(n.nodes[i - 1], n.nodes[i], p));
-  return n.strength * falloff(kRatio * ratio);
+inline double chain_ratio(const std::vector<ChainNode>& nodes, const Vec3& p) {
+  if (nodes.size() == 1) return segment_ratio(nodes.front(), nodes.front(), p);
+  double ratio = kInfinity;
+  for (std::size_t i = 1; i < nodes.size(); ++i) ratio = std::min(ratio, segment_ratio(nodes[i - 1], nodes[i], p));
+  return ratio;
+}
+
+inline double value(const Chain& n, const Vec3& p) { return n.strength * falloff(kRatio * chain_ratio(n.nodes, p)); }
+
+inline double flare_section(FlareSection section, double q, double tau) {
+  switch (section) {
+    case FlareSection::kEnvelope: {
+      q = std::min(q, 0.999999);
+      const double x = std::clamp(std::tanh(std::atanh(q) / 3), -tau, tau);
+      return (1 - x * x) / std::sqrt(1 + x * x - 2 * x * q);
+    }
+    case FlareSection::kQuadrifolium: return std::hypot(1.0, std::sqrt((1 + tau) * (1 + tau) - 1) * q);
+    case FlareSection::kCircle: {   // where the ray from the origin at angle 2 acos(q) leaves the circle
+      const double angle = 2 * std::acos(q), radius = 1 + tau / 2, middle = tau / 2;
+      return middle * std::cos(angle) + std::sqrt(std::max(0.0, radius * radius - std::pow(middle * std::sin(angle), 2)));
+    }
+  }
+  return 0;
+}
+
+inline double value(const Flare& n, const Vec3& p) {
+  const Vec3 axis = glm::normalize(n.axis);
+  const Vec3 to = glm::length(glm::cross(axis, Vec3(1, 0, 0))) > 1e-6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  const Vec3 x = glm::normalize(to - glm::dot(to, axis) * axis), y = glm::cross(axis, x), from = p - n.base;
+  const double turn = 2 * std::numbers::pi, azimuth = std::atan2(glm::dot(from, y), glm::dot(from, x));
+  const auto ahead = [&](double from_angle, double to_angle) {   // counterclockwise, in (0, 2 pi]
+    const double a = std::fmod(to_angle - from_angle, turn);
+    return a <= 0 ? a + turn : a;
+  };
+  // The nearest prong, the next one on the point's side of it.
+  std::size_t nearest = 0;
+  double away = kInfinity;
+  bool beyond = false;
+  for (std::size_t i = 0; i < n.prongs.size(); ++i) {
+    const double over = std::fmod(ahead(n.prongs[i].angle, azimuth), turn), under = turn - over;
+    if (std::min(over, under) >= away) continue;
+    away = std::min(over, under);
+    beyond = over <= under;
+    nearest = i;
+  }
+  std::size_t next = nearest;
+  double gap = turn;
+  for (std::size_t j = 0; j < n.prongs.size(); ++j) {
+    if (j == nearest) continue;
+    const double between = beyond ? ahead(n.prongs[nearest].angle, n.prongs[j].angle) : ahead(n.prongs[j].angle, n.prongs[nearest].angle);
+    if (between >= gap) continue;
+    gap = between;
+    next = j;
+  }
+  const double k = std::pow(std::clamp(1 - glm::dot(from, axis) / n.height, 0.0, 1.0), 3);
+  const double t = std::clamp(2 * away / gap, 0.0, 1.0), q = std::cos(t * std::numbers::pi / 2);
+  const double length = n.prongs[nearest].length * (1 - t * t / 2) + n.prongs[next].length * t * t / 2;
+  const double tau = std::min(0.95, n.sharpness * k * length);
+  const double widened = flare_section(n.section, q, tau) * (1 + n.spread * k);
+  return n.strength * falloff(kRatio * chain_ratio(n.nodes, p) / widened);
 }
 
 inline double value(const RoundCone& n, const Vec3& p) {
