@@ -20,18 +20,32 @@ double or_zero(bool c, double a) { return c ? a : 0.0; }
 
 using Radius = SectionRadius<double>;
 
-Radius section_at(FlareSection section, double q, double tau) {
-  switch (section) {
-    case FlareSection::kEnvelope: {
-      const double limited = std::min(q, kLargestProngCosine);
-      Radius r = envelope_section(limited, 1 - limited, std::tanh(std::atanh(limited) / 3), tau);
-      if (q > kLargestProngCosine) r.by_q = 0;
-      return r;
-    }
-    case FlareSection::kQuadrifolium: return quadrifolium_section(q, tau);
-    case FlareSection::kCircle: return circle_section(q, tau);
+/// A section at one q, for any tau; its slope by q beyond the limit of the envelope is that at the limit.
+class SectionAt {
+ public:
+  SectionAt() = default;
+  SectionAt(FlareSection section, double q) : section_(section), q_(q) {
+    if (section != FlareSection::kEnvelope) return;
+    q_ = std::min(q, kLargestProngCosine);
+    const double v = std::cbrt((1 - q_) / (1 + q_));
+    widest_ = (1 - v) / (1 + v);   // tanh(atanh(q)/3)
   }
-  return {};
+  Radius radius(double tau) const {
+    switch (section_) {
+      case FlareSection::kEnvelope: return envelope_section(q_, 1 - q_, widest_, tau);
+      case FlareSection::kQuadrifolium: return quadrifolium_section(q_, tau);
+      case FlareSection::kCircle: return circle_section(q_, tau);
+    }
+    return {};
+  }
+
+ private:
+  FlareSection section_ = FlareSection::kEnvelope;
+  double q_ = 0, widest_ = 0;
+};
+
+bool is_beyond_limit(const CompiledFlare& flare, double q) {
+  return flare.section == FlareSection::kEnvelope && q > kLargestProngCosine;
 }
 
 Vec3 reference_direction(const Vec3& axis) {
@@ -116,7 +130,7 @@ double flare_factor(const CompiledFlare& flare, const Vec3& p) {
   if (!(rest > 0)) return 1;
   const double k = cube(rest);
   const Around around = around_at(flare, std::atan2(at.z, at.y));
-  return section_at(flare.section, around.q, sharpness_at(flare, k, around.length)).e * (1 + flare.spread * k);
+  return SectionAt(flare.section, around.q).radius(sharpness_at(flare, k, around.length)).e * (1 + flare.spread * k);
 }
 
 FlareFactor flare_factor_gradient(const CompiledFlare& flare, const Vec3& p) {
@@ -126,9 +140,10 @@ FlareFactor flare_factor_gradient(const CompiledFlare& flare, const Vec3& p) {
   const double k = cube(rest), k_by_z = rest < 1 ? -3 * rest * rest / flare.height : 0;
   const Around around = around_at(flare, std::atan2(at.z, at.y));
   const double wanted = flare.sharpness * k * around.length, tau = std::min(kSharpest, wanted);
-  const Radius radius = section_at(flare.section, around.q, tau);
+  const Radius radius = SectionAt(flare.section, around.q).radius(tau);
   const double by_tau = wanted < kSharpest ? radius.by_tau * flare.sharpness : 0, widening = 1 + flare.spread * k;
-  const double by_angle = (radius.by_q * around.q_by_angle + by_tau * k * around.length_by_angle) / radius.e;
+  const double by_q = is_beyond_limit(flare, around.q) ? 0 : radius.by_q;
+  const double by_angle = (by_q * around.q_by_angle + by_tau * k * around.length_by_angle) / radius.e;
   const double by_z = (by_tau * around.length / radius.e + flare.spread / widening) * k_by_z;
   const double rho2 = at.y * at.y + at.z * at.z;
   const Vec3 azimuth_gradient = rho2 > 0 ? (at.y * flare.y - at.z * flare.x) / rho2 : Vec3(0.0);
@@ -162,8 +177,10 @@ class FlareRange {
         below_base_(z.lo <= 0), above_base_(z.hi >= 0) {
     if (rest_.hi > 0) go_around(azimuth);
     tau_ = {sharpness_at(flare, k_.lo, length_.lo), sharpness_at(flare, k_.hi, length_.hi)};
-    least_ = section_at(flare.section, q_.lo, tau_.lo);
-    most_ = section_at(flare.section, q_.hi, tau_.hi);
+    valley_ = SectionAt(flare.section, q_.lo);
+    prong_ = SectionAt(flare.section, q_.hi);
+    least_ = valley_.radius(tau_.lo);
+    most_ = prong_.radius(tau_.hi);
   }
 
   Interval factor() const {
@@ -172,7 +189,8 @@ class FlareRange {
   /// Of the derivative of ln M by the azimuth, and by the height.
   Interval by_angle() const {
     const Interval k = k_ * Interval{flare_.sharpness, flare_.sharpness};
-    return (Interval{q_.hi > kLargestProngCosine ? 0.0 : least_.by_q, most_by_q()} * q_by_angle_ + by_tau() * k * length_by_angle_) * per_e();
+    const Interval by_q{is_beyond_limit(flare_, q_.hi) ? 0 : least_.by_q, most_.by_q};
+    return (by_q * q_by_angle_ + by_tau() * k * length_by_angle_) * per_e();
   }
   Interval by_height() const {
     const Interval tau_by_k = length_ * Interval{flare_.sharpness, flare_.sharpness};
@@ -203,12 +221,9 @@ class FlareRange {
       length_by_angle_ = hull(length_by_angle_, {at.length_by_angle, at.length_by_angle});
     }
   }
-  double most_by_q() const { return section_at(flare_.section, std::min(q_.hi, kLargestProngCosine), tau_.hi).by_q; }
   /// Of E, while its sharpness grows.
   Interval by_tau() const {
-    Interval slope = kNothing;
-    for (const double tau : {tau_.lo, tau_.hi})
-      slope = hull(slope, {section_at(flare_.section, q_.lo, tau).by_tau, section_at(flare_.section, q_.hi, tau).by_tau});
+    Interval slope{std::min(least_.by_tau, valley_.radius(tau_.hi).by_tau), std::max(most_.by_tau, prong_.radius(tau_.lo).by_tau)};
     if (flare_.sharpness * k_.hi * length_.hi >= kSharpest) slope = hull(slope, {0, 0});
     return slope;
   }
@@ -218,6 +233,7 @@ class FlareRange {
   Interval rest_, k_, tau_{0, 0};
   bool below_base_, above_base_;
   Interval q_{0, 0}, q_by_angle_{0, 0}, length_{0, 0}, length_by_angle_{0, 0};
+  SectionAt valley_, prong_;           ///< where E is smallest and largest
   Radius least_{}, most_{};
 };
 

@@ -77,7 +77,7 @@ TEST(BlobTreeJson, NamesThePlaceOfEveryMistake) {
       {R"({"op":1})", 2, 7, "the number 1"},
       {R"({})", 2, 1, "no key `op`"},
       {R"(7)", 2, 1, "the number 7"},
-      {R"({"op":"flare"})", 2, 7, "`flare`, which this version does not support"},
+      {R"({"op":"flare"})", 2, 1, "no key `nodes`"},
       {R"({"op":"chain","nodes":[[0,0,0,1]],"bark":{}})", 2, 35, "`bark`, which this version does not support"},
       {R"({"op":"chain","nodes":[[0,0,0,1],
           [0,0,1]]})", 3, 11, "an array of 3"},

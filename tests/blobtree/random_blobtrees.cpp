@@ -1,6 +1,7 @@
 #include "random_blobtrees.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace cambium {
 namespace {
@@ -15,6 +16,7 @@ NodeId BlobTreeGrower::any(int depth) {
 }
 
 NodeId BlobTreeGrower::primitive(int kind) {
+  if (flared_ && draws_.chance(0.5)) return flare();
   const double thinness = decades_ > 0 ? std::pow(10.0, -draws_.in(0, decades_)) : 1;
   const double r = thinness * draws_.in(0.1, 0.4);
   const double strength = draws_.chance(0.7) ? 1.0 : draws_.in(-1, 1.5);
@@ -67,6 +69,33 @@ Chain BlobTreeGrower::chain(Vec3 p, double strength, double thinness) {
     p += draws_.in(0.0, 0.6) * draws_.direction();
   }
   return c;
+}
+
+// Where it may be asked a flare's axis is its chain's first segment, as a trunk's is; else anywhere.
+NodeId BlobTreeGrower::flare() {
+  const double thinness = decades_ > 0 ? std::pow(10.0, -draws_.in(0, decades_)) : 1;
+  const double strength = draws_.chance(0.7) ? 1.0 : draws_.in(-1, 1.5);
+  Chain trunk = chain(draws_.point(kPlace), strength, thinness);
+  Flare f;
+  f.nodes = std::move(trunk.nodes);
+  f.strength = strength;
+  f.base = f.nodes.front().position;
+  f.axis = 2.0 * draws_.direction();
+  if (draws_.chance(0.7)) {
+    if (f.nodes.size() > 1 && f.nodes[1].position != f.base) f.axis = f.nodes[1].position - f.base;
+  } else {
+    f.base += draws_.in(0, 0.4) * draws_.direction();
+  }
+  f.height = draws_.in(0.2, 1.2);
+  f.spread = draws_.in(0, 0.8);
+  f.sharpness = draws_.chance(0.2) ? 0.95 : draws_.in(0, 0.9);
+  double angle = draws_.in(-4, 4);
+  for (int i = 0, n = 1 + draws_.below(7); i < n; ++i) {
+    f.prongs.push_back({angle, draws_.in(0, 1.3)});
+    angle += draws_.in(0.3, 0.87);   // of seven, all in one turn
+  }
+  f.section = static_cast<FlareSection>(draws_.below(3));
+  return add(std::move(f));
 }
 
 std::vector<NodeId> BlobTreeGrower::several(int depth) {
@@ -128,6 +157,23 @@ BlobTree random_blobtree(std::uint64_t seed, int depth) {
   BlobTreeGrower grower(seed);
   const NodeId root = grower.op(static_cast<int>(seed % BlobTreeGrower::kOperators), depth);
   return grower.finish(root);
+}
+
+BlobTree random_flared_blobtree(std::uint64_t seed, int depth) {
+  BlobTreeGrower grower(seed, 0, true);
+  const NodeId root = grower.op(static_cast<int>(seed % BlobTreeGrower::kOperators), depth);
+  return grower.finish(root);
+}
+
+Flare flared_trunk(std::size_t prongs, double sharpness, FlareSection section, const Vec3& base, const Vec3& axis) {
+  const Vec3 up = glm::normalize(axis), aside = glm::normalize(glm::cross(up, std::abs(up.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0)));
+  Flare trunk{{}, base, axis, 1.2, 0.6, sharpness, {}, section};
+  for (int i = 0; i < 7; ++i) trunk.nodes.push_back({base + 0.5 * i * up + 0.01 * i * i * aside, 0.3 - 0.02 * i});
+  for (std::size_t i = 0; i < prongs; ++i) {
+    const double part = static_cast<double>(i) + 0.2 * static_cast<double>(i % 2);
+    trunk.prongs.push_back({0.3 + 2 * std::numbers::pi * part / static_cast<double>(prongs), 1 - 0.3 * static_cast<double>(i % 3)});
+  }
+  return trunk;
 }
 
 }  // namespace cambium

@@ -48,10 +48,13 @@ class BlobTreeGrower {
   static constexpr int kOperators = 12;   ///< warps included
 
   /// decades: primitives are smaller than usual by up to 10^decades, each by its own factor.
-  explicit BlobTreeGrower(std::uint64_t seed, double decades = 0) : draws_(seed), decades_(decades) {}
+  /// flared: every other primitive is a flare; without it none is, and seeds give what they gave before there were any.
+  explicit BlobTreeGrower(std::uint64_t seed, double decades = 0, bool flared = false)
+      : draws_(seed), decades_(decades), flared_(flared) {}
 
   NodeId any(int depth);                  ///< at most `depth` operators above each other
   NodeId primitive(int kind);             ///< kind in [0, kPrimitives)
+  NodeId flare();
   NodeId op(int kind, int depth);         ///< kind in [0, kOperators), over children grown by any(depth - 1)
   NodeId half_space();                    ///< sometimes under a twist; for an operator that bounds it
 
@@ -68,10 +71,17 @@ class BlobTreeGrower {
 
   Draws draws_;
   double decades_;
+  bool flared_;
   BlobTreeBuilder builder_;
 };
 
 /// Nested up to `depth` operators; everything within a few metres of the origin. Always legal and bounded.
 BlobTree random_blobtree(std::uint64_t seed, int depth);
+/// The same with flares.
+BlobTree random_flared_blobtree(std::uint64_t seed, int depth);
+
+/// A trunk of three metres along an axis from a base, that leans a little; prongs at uneven angles and of uneven lengths.
+Flare flared_trunk(std::size_t prongs, double sharpness, FlareSection section = FlareSection::kEnvelope, const Vec3& base = Vec3(0.0),
+                   const Vec3& axis = {0, 0, 1});
 
 }  // namespace cambium

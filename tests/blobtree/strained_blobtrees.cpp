@@ -232,9 +232,9 @@ const std::vector<std::string>& strains() {
 
 StrainedBlobTree strained_blobtree(std::size_t strain, std::uint64_t seed) {
   using Family = NodeId (*)(Strain&);
-  constexpr Family kFamilies[] = {nest, nest, one_sided, wide, folded, forked, cut, touching};
+  constexpr Family kFamilies[] = {nest, nest, one_sided, wide, folded, forked, cut, touching, nest};
   const double decades = strain == 1 ? 3 : 0;
-  Strain s{BlobTreeGrower(seed * 8 + strain, decades)};
+  Strain s{BlobTreeGrower(seed * 8 + strain, decades, strain == kFlaredStrain)};
   const NodeId root = kFamilies[strain](s);
   return {s.grower.finish(root), std::move(s.marks)};
 }

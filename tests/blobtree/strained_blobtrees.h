@@ -18,6 +18,8 @@ struct StrainedBlobTree {
 /// operators with fifty children, chains that fold back over themselves and stand still, forks that bear forks, solids cut by
 /// half-spaces, and supports that touch in exactly one point.
 const std::vector<std::string>& strains();
+/// One more family, nests with flares. Not among strains(), from which corpora keyed by seed are drawn: these stay as they are.
+inline constexpr std::size_t kFlaredStrain = 8;
 StrainedBlobTree strained_blobtree(std::size_t strain, std::uint64_t seed);
 
 }  // namespace cambium
