@@ -17,7 +17,7 @@ struct SectionRadius {
 template <class V>
 CAMBIUM_RULE SectionRadius<V> envelope_section(V q, V p, V widest, V tau) {
   const V x = smaller(widest, tau), short_axis = V(1) - x, across = V(1) - x * x;
-  const V square = short_axis * short_axis + (x + x) * p, e = across / root(square), per_square = V(1) / square;
+  const V per_square = V(1) / (short_axis * short_axis + (x + x) * p), e = across * root(per_square);
   return {e, e * x * per_square, or_zero(widest > tau, e * ((q - x) * per_square - (x + x) / across))};
 }
 

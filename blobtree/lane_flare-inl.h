@@ -77,14 +77,14 @@ class FlareLanes {
 
     const V rest2 = rest * rest, k = rest2 * rest, wanted = sharpness_ * k * length, tau = smaller(wanted, V(kSharpest));
     const SectionRadius<V> radius = radius_at(half_angle, sine, cosine, tau);
-    const V widening = V(1) + spread_ * k, m = radius.e * widening;
-    result.per_square = V(1) / (m * m);
+    const V widening = V(1) + spread_ * k, per_m = V(1) / (radius.e * widening);
+    result.per_square = per_m * per_m;
     if constexpr (kGradient) {
-      const V per_e = V(1) / radius.e, turned = V(2 * std::numbers::pi) * sine * cosine * gap.per_width;
+      const V per_e = widening * per_m, per_widening = radius.e * per_m, turned = V(2 * std::numbers::pi) * sine * cosine * gap.per_width;
       const V q_by_angle = select(gap.past, turned, V(0) - turned), length_by_angle = V(2) * bent * gap.per_width;
       const V by_tau = or_zero(wanted < V(kSharpest), radius.by_tau * sharpness_);
       const V by_angle = (radius.by_q * q_by_angle + by_tau * k * length_by_angle) * per_e;
-      const V by_rest = (by_tau * length * per_e + spread_ / widening) * or_zero(unlimited < V(1), V(3) * rest2);
+      const V by_rest = (by_tau * length * per_e + spread_ * per_widening) * or_zero(unlimited < V(1), V(3) * rest2);
       const V around = by_angle / larger(x * x + y * y, V(1e-18));
       result.log_gradient = (around * x) * y_.direction - (around * y) * x_.direction + by_rest * rest_.direction;
     }
