@@ -1,5 +1,6 @@
 #include "blobtree/node_rules.h"
 
+#include "blobtree/degrees.h"
 #include "blobtree/flare.h"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ std::string show(double v) { return fmt::format("{}", v); }
 std::string show(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
 std::string at(const char* list, std::size_t i) { return fmt::format("{}[{}]", list, i); }
 
-double degrees(double radians) { return radians * 180 / std::numbers::pi; }
+double degrees(double radians) { return static_cast<double>(degrees_from_radians(radians)); }
 constexpr double kSmallestGap = 1e-6;    // radians: between prongs that are nearer there is nothing to see
 constexpr double kLargestSpread = 1000;
 

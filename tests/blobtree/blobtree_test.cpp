@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <functional>
 #include <limits>
 #include <set>
@@ -38,6 +40,13 @@ Mat4 projective() {
   return m;
 }
 
+template <class Spoil>
+Flare flare(const Spoil& spoil) {
+  Flare node{{{{0, 0, 0}, 1}, {{0, 0, 3}, 1}}, {0, 0, 0}, {0, 0, 1}, 1, 0.5, 0.7, {{0, 1}, {1, 1}, {2, 1}}};
+  spoil(node);
+  return node;
+}
+
 TEST(BlobTreeBuilder, RefusesIllegalNodesNamingTheKey) {
   const Vec3 o(0.0), z(0, 0, 1), bad(0, kNan, 0);
   const auto child = [](BlobTreeBuilder& b) { return b.add(kSphere); };
@@ -58,6 +67,22 @@ TEST(BlobTreeBuilder, RefusesIllegalNodesNamingTheKey) {
       {"nodes", [=](auto&) { return Chain{}; }},
       {"nodes[1]", [=](auto&) { return Chain{{{o, 1}, {z, 0}}, 1}; }},
       {"nodes[0]", [=](auto&) { return Chain{{{bad, 1}}, 1}; }},
+      {"nodes", [=](auto&) { return flare([](Flare& f) { f.nodes.clear(); }); }},
+      {"nodes[1]", [=](auto&) { return flare([](Flare& f) { f.nodes[1].radius = 0; }); }},
+      {"base", [=](auto&) { return flare([=](Flare& f) { f.base = bad; }); }},
+      {"axis", [=](auto&) { return flare([=](Flare& f) { f.axis = o; }); }},
+      {"height", [=](auto&) { return flare([](Flare& f) { f.height = 0; }); }},
+      {"height", [=](auto&) { return flare([](Flare& f) { f.height = kNan; }); }},
+      {"spread", [=](auto&) { return flare([](Flare& f) { f.spread = -0.1; }); }},
+      {"spread", [=](auto&) { return flare([](Flare& f) { f.spread = 1001; }); }},
+      {"sharpness", [=](auto&) { return flare([](Flare& f) { f.sharpness = 0.96; }); }},
+      {"sharpness", [=](auto&) { return flare([](Flare& f) { f.sharpness = -0.1; }); }},
+      {"prongs", [=](auto&) { return flare([](Flare& f) { f.prongs.clear(); }); }},
+      {"prongs[1].length", [=](auto&) { return flare([](Flare& f) { f.prongs[1].length = -1; }); }},
+      {"prongs[0].angle_degrees", [=](auto&) { return flare([](Flare& f) { f.prongs[0].angle = kInfinity; }); }},
+      {"prongs[2].angle_degrees", [=](auto&) { return flare([](Flare& f) { f.prongs[2].angle = f.prongs[0].angle; }); }},
+      {"prongs[2].angle_degrees", [=](auto&) { return flare([](Flare& f) { f.prongs[2].angle = f.prongs[1].angle + 2 * std::numbers::pi; }); }},
+      {"strength", [=](auto&) { return flare([](Flare& f) { f.strength = kNan; }); }},
       {"a", [=](auto&) { return Capsule{bad, z, 1, 1}; }},
       {"normal", [=](auto&) { return Disc{o, o, 1, 1, 1}; }},
       {"disc_radius", [=](auto&) { return Disc{o, z, 0, 1, 1}; }},
@@ -123,6 +148,9 @@ TEST(BlobTreeBuilder, AcceptsTheLimits) {
   EXPECT_NO_THROW(b.add(Cone{o, o, 1, 1, 0}));
   EXPECT_NO_THROW(b.add(RotatedBox{o, o, {0, 0, 0, 2}, 1, -1}));
   EXPECT_NO_THROW(b.add(Chain{{{o, 1}, {o, 2}}, 1}));
+  EXPECT_NO_THROW(b.add(flare([](Flare& f) { f.sharpness = 0.95; })));
+  EXPECT_NO_THROW(b.add(flare([](Flare& f) { f.sharpness = f.spread = 0; })));
+  EXPECT_NO_THROW(b.add(flare([](Flare& f) { f.prongs = {{400, 0}}; })));
   EXPECT_NO_THROW(b.add(Ricci{{child()}, 1}));
   EXPECT_NO_THROW(b.add(Contact{{child()}, 0.5, 4}));
   EXPECT_NO_THROW(b.add(Bend{o, z, {1, 0, 0}, 0, child()}));
@@ -207,6 +235,8 @@ TEST(BlobTree, GivesBackEveryNodeAsItWasAdded) {
   add(Torus{o, z, 8, 7, 0.2});
   add(RotatedBox{o, p, {0, 1, 0, 0}, 9, 0.3});
   add(HalfSpace{o, z, 11});
+  const NodeId flare = b.add(Flare{{{o, 1}, {z, 2}}, p, x, 3, 4, 0.5, {{1, 2}, {3, 4}}, FlareSection::kCircle, 0.6});
+  const NodeId other_flare = b.add(Flare{{{z, 3}}, x, z, 5, 6, 0.7, {{5, 6}}, FlareSection::kQuadrifolium, 0.8});
   const NodeId sum = b.add(Sum{{of[0], of[1]}}), other_sum = b.add(Sum{{of[2]}}), all = b.add(Union{{sum, other_sum}});
   const NodeId ricci = b.add(Ricci{{of[3]}, 3}), contact = b.add(Contact{{all, ricci}, 0.25, 2});
   const NodeId fork = b.add(Fork{of[4], {{of[5], o, x, 2, 3}, {of[6], p, z, 4, 5}}, 0.125, 3});
@@ -215,7 +245,7 @@ TEST(BlobTree, GivesBackEveryNodeAsItWasAdded) {
   const NodeId scaled = b.add(ScaleField{2, less}), rigid = b.add(Transform{moved, scaled});
   const NodeId bend = b.add(Bend{o, p, x, 0.5, rigid}), twist = b.add(Twist{o, z, 6, bend});
   const NodeId taper = b.add(Taper{p, z, 1, 2, 3, 4, twist});
-  const BlobTree tree = b.build(b.add(Sum{{contact, taper}}));
+  const BlobTree tree = b.build(b.add(Sum{{contact, taper, flare, other_flare}}));
 
   const Cone cone = tree.get<Cone>(of[0]);
   EXPECT_TRUE(cone.base == o && cone.tip == p && cone.radius_base == 3 && cone.radius_tip == 2 && cone.strength == 0.5);
@@ -231,6 +261,13 @@ TEST(BlobTree, GivesBackEveryNodeAsItWasAdded) {
   EXPECT_EQ(tree.get<Torus>(of[7]).ring_radius, 8);
   EXPECT_EQ(tree.get<RotatedBox>(of[8]).rotation, glm::dvec4(0, 1, 0, 0));
   EXPECT_EQ(tree.get<HalfSpace>(of[9]).width, 11);
+  const Flare first_flare = tree.get<Flare>(flare), second_flare = tree.get<Flare>(other_flare);
+  ASSERT_EQ(first_flare.prongs.size(), 2u);
+  EXPECT_TRUE(first_flare.prongs[1].angle == 3 && first_flare.prongs[1].length == 4 && first_flare.section == FlareSection::kCircle);
+  EXPECT_TRUE(second_flare.base == x && second_flare.axis == z && second_flare.height == 5 && second_flare.spread == 6);
+  EXPECT_TRUE(second_flare.sharpness == 0.7 && second_flare.prongs[0].angle == 5 && second_flare.strength == 0.8);
+  EXPECT_EQ(second_flare.section, FlareSection::kQuadrifolium);
+  EXPECT_EQ(tree.chain_nodes(other_flare)[0].radius, 3);
   EXPECT_EQ(tree.get<Sum>(other_sum).children, std::vector<NodeId>{of[2]});
   EXPECT_EQ(tree.get<Union>(all).children, (std::vector<NodeId>{sum, other_sum}));
   EXPECT_EQ(tree.get<Intersection>(cut).children, (std::vector<NodeId>{fork, of[9]}));
@@ -258,7 +295,8 @@ TEST(BlobTree, GivesBackEveryNodeAsItWasAdded) {
     EXPECT_EQ(tree.kind(id), node.index());
     const auto children = tree.children(id);
     EXPECT_EQ(children_of(node), std::vector<NodeId>(children.begin(), children.end()));
-    EXPECT_EQ(tree.chain_nodes(id).size(), node.index() == kNodeKind<Chain> ? std::get<Chain>(node).nodes.size() : 0);
+    const std::size_t in_flare = std::holds_alternative<Flare>(node) ? std::get<Flare>(node).nodes.size() : 0;
+    EXPECT_EQ(tree.chain_nodes(id).size(), std::holds_alternative<Chain>(node) ? std::get<Chain>(node).nodes.size() : in_flare);
     EXPECT_EQ(tree.laterals(id).size(), node.index() == kNodeKind<Fork> ? std::get<Fork>(node).laterals.size() : 0);
   }
   EXPECT_EQ(kinds.size(), std::variant_size_v<Node>);
