@@ -85,8 +85,9 @@ class FlareLanes {
       const V by_tau = or_zero(wanted < V(kSharpest), radius.by_tau * sharpness_);
       const V by_angle = (radius.by_q * q_by_angle + by_tau * k * length_by_angle) * per_e;
       const V by_rest = (by_tau * length * per_e + spread_ * per_widening) * or_zero(unlimited < V(1), V(3) * rest2);
-      const V around = or_zero(rest > V(0), by_angle / larger(x * x + y * y, V(1e-18)));   // or zeros had a sign
-      result.log_gradient = (around * x) * y_.direction - (around * y) * x_.direction + by_rest * rest_.direction;
+      const V around = by_angle / larger(x * x + y * y, V(1e-18));
+      const LaneVector<T> slope = (around * x) * y_.direction - (around * y) * x_.direction + by_rest * rest_.direction;
+      result.log_gradient = select(rest > V(0), slope, result.log_gradient);   // zeros without a sign, as above
     }
     return result;
   }

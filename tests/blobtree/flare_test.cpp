@@ -356,7 +356,7 @@ TEST(Flare, BatchesInCellsAreNearPoints) {
       telling += exact.value > 0.1 && exact.value < 0.9;
     }
   }
-  EXPECT_LT(worst, 1e-5) << worst;
+  EXPECT_LT(worst, 2e-6) << worst;
   EXPECT_LT(worst_slope, 1e-3) << worst_slope;
   EXPECT_GT(telling, 5000u);
 }
