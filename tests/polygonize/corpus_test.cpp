@@ -109,6 +109,17 @@ TEST_P(Corpus, EveryMeshIsClosedManifoldFreeOfCrossingsAndWithinTolerance) {
   }
 }
 
+// A corpus of its own: that of the nests is keyed by number. Flares by themselves and in nests of anything.
+TEST(CorpusOfFlares, EveryMeshIsClosedManifoldFreeOfCrossingsAndWithinTolerance) {
+  const std::uint64_t count = nests_of_a_case() * 10;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    SCOPED_TRACE("tree " + std::to_string(i));
+    const Field field(random_flared_blobtree(i, 1 + static_cast<int>(i % 2)));
+    if (field.bounds().empty()) continue;
+    expect_shippable(field, tolerance_of(field));
+  }
+}
+
 // Each of these once lost surface beside what its leaves show, and nothing said so: plates thinner than the tolerance, bumps, crumbs.
 TEST(CorpusOfOld, NestsThatOnceLostSurfaceSilentlyMeshOrReportIt) {
   for (const std::uint64_t i : {170, 219, 285, 347, 394, 770, 795}) {

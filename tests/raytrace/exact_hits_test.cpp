@@ -227,14 +227,15 @@ bool is_worth_rays(const Tracer& tracer, std::uint64_t seed) {
   return hits >= 15;
 }
 
-TEST(ExactHits, OnRandomBlobTrees) {
-  constexpr int kTrees = 20;
+/// Over so many of the trees that `make` gives by seed.
+template <class Make>
+void expect_exact_hits(int wanted, const Make& make) {
   const std::size_t rays = is_exhaustive() ? 45'000 : 100;
   Count all;
   int trees = 0;
-  for (std::uint64_t seed = 1; trees < kTrees; ++seed) {
+  for (std::uint64_t seed = 1; trees < wanted; ++seed) {
     ASSERT_LT(seed, 1000u);
-    const Field field(random_blobtree(seed, 4));
+    const Field field(make(seed));
     const Tracer tracer(*cover_surface(field, {}, {}));
     if (!is_worth_rays(tracer, seed)) continue;
     ++trees;
@@ -245,6 +246,29 @@ TEST(ExactHits, OnRandomBlobTrees) {
     all.add(count);
   }
   print(all, "all");
+}
+
+TEST(ExactHits, OnRandomBlobTrees) {
+  expect_exact_hits(20, [](std::uint64_t seed) { return random_blobtree(seed, 4); });
+}
+
+TEST(ExactHits, OnNestsOfFlares) {
+  expect_exact_hits(20, [](std::uint64_t seed) { return random_flared_blobtree(seed, 1 + static_cast<int>(seed % 3)); });
+}
+
+// A trunk that stands on its prongs and bears a limb: above its height it is met in closed form, below it is searched for.
+TEST(ExactHits, OnAFlaredTrunk) {
+  for (const double sharpness : {0.4, 0.95}) {
+    BlobTreeBuilder b;
+    const NodeId trunk = b.add(flared_trunk(5, sharpness)), limb = b.add(Chain{{{{0, 0, 1}, 0.12}, {{1, 0, 1.8}, 0.08}}});
+    const Field field(b.build(b.add(Fork{trunk, {{limb, {0, 0, 1}, {0, 0, 1}, 0.07, 0.8}}})));
+    const Tracer tracer(*cover_surface(field, tracing_cells(), {}));
+    const Count count = trace_all({tracer, SampledSurface(field)}, is_exhaustive() ? 100'000 : 1'000, 3);
+    expect_exact(count, "flared trunk");
+    EXPECT_GT(count.analytic, 0u);
+    EXPECT_LT(count.analytic, count.hits);
+    print(count, "flared trunk");
+  }
 }
 
 TEST(ExactHits, ARayThatStartsDeeperThanAnyCellIsAtItsFirstPlaceWhereItStarts) {
