@@ -38,6 +38,12 @@ const Subject kPrimitives[] = {
        return b.add(RoundCone{line.middle - 0.15 * line.along, line.middle + 0.15 * line.along, 1.2 * kRadius, kRadius, 1});
      }},
     {"chain of 3 segments", 3, [](Builder& b, Random& r) { return b.add(chain_through_cell(r, 3, 0.06)); }},
+    {"flare of 3 segments", 3,
+     [](Builder& b, Random& r) {
+       const Chain chain = chain_through_cell(r, 3, 0.06);
+       const Vec3 base = chain.nodes.front().position, axis = chain.nodes.back().position - base;
+       return b.add(Flare{chain.nodes, base, axis, 2 * glm::length(axis), 0.3, 0.6, {{0, 1}, {1, 1}, {2, 1}, {4, 1}}});
+     }},
     {"sphere", 1,
      [](Builder& b, Random& r) {
        return b.add(Sphere{kRadius * r.direction(), kRadius, 1});

@@ -34,7 +34,7 @@ Json list_branches(const BlobTree& tree) {
     branch.radius_end = branch.radius_end > 0 ? std::min(branch.radius_end, radius_end) : radius_end;
   };
   for (NodeId id = 0; id < tree.size(); ++id) {
-    if (tree.kind(id) == kNodeKind<Chain>) {
+    if (tree.kind(id) == kNodeKind<Chain> || tree.kind(id) == kNodeKind<Flare>) {
       const std::span<const ChainNode> nodes = tree.chain_nodes(id);
       add(id, nodes.front().position, path_length(nodes), nodes.front().radius, nodes.back().radius);
     } else if (tree.kind(id) == kNodeKind<Cone>) {
