@@ -127,8 +127,9 @@ SquaredRatio widened(const SquaredRatio& y, const FlareCourse& m) {
 }
 
 FlareWay flare_way(const Way& way) {
-  if (!way.straight) return {way.ball, Vec3(0.0), way.fastest(), false};
-  return {way.ball, way.velocity, way.turn, !way.wide && way.turn == 0};
+  if (!way.straight) return {way.ball, Vec3(0.0), way.fastest()};
+  if (way.wide || way.turn > 0) return {way.ball, way.velocity, way.turn};
+  return {{way.middle, 0}, way.velocity, 0, way.half};
 }
 
 /// Squares of distances to convex sets have a second derivative in [0, 2]; a circle is none.

@@ -273,20 +273,48 @@ Interval flare_factor_interval(const CompiledFlare& flare, const Ball& ball, con
   return range_in(flare, at, z_reach, ball.radius).factor();
 }
 
-FlareCourse flare_course(const CompiledFlare& flare, const FlareWay& way) {
+namespace {
+
+/// Where ways are about a flare's axis: its heights, azimuths, squared distances from the axis (0: azimuths may turn ever so fast), and
+/// twice the areas that they sweep about it.
+struct WayAbout {
+  Interval z, azimuth, square, swept;
+};
+
+/// Around the axis a straight line sweeps equal areas, so that its azimuth goes one way.
+WayAbout about_line(const CompiledFlare& flare, const Vec3& middle, const Vec3& velocity, double half) {
+  const Vec3 from = flare.local(middle - half * velocity), to = flare.local(middle + half * velocity), step = to - from;
+  const double slack = 1e-13 * (glm::length(middle) + glm::length(flare.base) + glm::length(from) + glm::length(to));
+  const double step2 = step.y * step.y + step.z * step.z;
+  const double nearest = step2 > 0 ? std::clamp(-(from.y * step.y + from.z * step.z) / step2, 0.0, 1.0) : 0.0;
+  const double least = std::hypot(from.y + nearest * step.y, from.z + nearest * step.z) - slack;
+  const double most = std::max(std::hypot(from.y, from.z), std::hypot(to.y, to.z)) + slack;
+  const double area = from.y * to.z - from.z * to.y, swept = half > 0 ? area / (2 * half) : 0;
+  const Interval z{std::min(from.x, to.x) - slack, std::max(from.x, to.x) + slack};
+  if (!(least > slack)) return {z, arc_of_ball(0, 0, 1), {0, most * most}, around(swept, 0)};
+  const double begin = std::atan2(from.z, from.y), turned = std::atan2(area, from.y * to.y + from.z * to.z);
+  const double more = 1e-12 + slack / least;
+  const Interval azimuth{begin + std::min(turned, 0.0) - more, begin + std::max(turned, 0.0) + more};
+  return {z, azimuth, {least * least, most * most}, around(swept, slack * (glm::length(velocity) + std::abs(swept) / least))};
+}
+
+WayAbout about_ball(const CompiledFlare& flare, const FlareWay& way) {
   const Vec3 at = flare.local(way.ball.center);
-  const double reach = way.ball.radius, rho = std::hypot(at.y, at.z);
-  if (at.x - reach >= flare.height) return {{1, 1}, {0, 0}};
-  const FlareRange range = range_in(flare, at, reach, reach);
-  const Interval climb = around(glm::dot(way.velocity, flare.axis), way.turn);
-  const Interval by_height = range.by_height() * climb;
-  if (!(rho > reach * (1 + 1e-9))) return {range.factor(), range.by_angle() * Interval{-kInfinity, kInfinity} + by_height};
-  // Around the axis a straight line sweeps equal areas: at . (velocity turned by a quarter) is the same all along.
+  const double reach = way.ball.radius * (1 + 1e-9), rho = std::hypot(at.y, at.z), least = std::max(0.0, rho - reach);
   const double vx = glm::dot(way.velocity, flare.x), vy = glm::dot(way.velocity, flare.y);
-  const double swept = at.y * vy - at.z * vx, change = way.one_line ? 0 : reach * std::hypot(vx, vy) + (rho + reach) * way.turn;
-  const double least = (rho - reach) * (rho - reach), most = (rho + reach) * (rho + reach);
-  const Interval turning = around(swept, change) * Interval{1 / most, 1 / least};
-  return {range.factor(), range.by_angle() * turning + by_height};
+  return {around(at.x, reach), arc_of_ball(std::atan2(at.z, at.y), rho, reach), {least * least, (rho + reach) * (rho + reach)},
+          around(at.y * vy - at.z * vx, reach * std::hypot(vx, vy) + (rho + reach) * way.turn)};
+}
+
+}  // namespace
+
+FlareCourse flare_course(const CompiledFlare& flare, const FlareWay& way) {
+  const WayAbout about = way.half > 0 ? about_line(flare, way.ball.center, way.velocity, way.half) : about_ball(flare, way);
+  if (about.z.lo >= flare.height) return {{1, 1}, {0, 0}};
+  const FlareRange range(flare, about.z, about.azimuth);
+  const Interval climb = around(glm::dot(way.velocity, flare.axis), way.turn);
+  const Interval turning = about.square.lo > 0 ? about.swept * inverse(about.square) : Interval{-kInfinity, kInfinity};
+  return {range.factor(), range.by_angle() * turning + range.by_height() * climb};
 }
 
 // M only falls with height, so this closes in from below on the lowest place that the sweep can reach.

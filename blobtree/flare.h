@@ -61,12 +61,12 @@ double flare_widening(const CompiledFlare& flare, const Vec3& p);
 Interval flare_factor_interval(const CompiledFlare& flare, const Ball& ball);
 Interval flare_factor_interval(const CompiledFlare& flare, const Ball& ball, const Vec3& half_size);
 
-/// Velocities in a ball: within `turn` of the given one; for those of unknown direction it is 0.
+/// Ways through a ball, with velocities within `turn` of the given one; for those of unknown direction it is 0.
 struct FlareWay {
   Ball ball;
   Vec3 velocity{0.0};
   double turn = 0;
-  bool one_line = false;                ///< through the ball's centre, with the velocity as it is given
+  double half = 0;                      ///< or else a straight one, for so long before and after the ball's centre; turn is 0
 };
 struct FlareCourse {
   Interval factor, log_slope;           ///< of M, and of the derivative of ln M along the way; endless beside the axis

@@ -286,10 +286,11 @@ TEST(Flare, BoundsOfItsFactorHoldEverySampleAndCloseIn) {
     const Ball ball{draws.point({Vec3(-0.8, -0.8, -0.5), Vec3(0.8, 0.8, 1.5)}), std::pow(10.0, -draws.in(0, 4))};
     const Vec3 half = Vec3(ball.radius) / std::sqrt(3.0), direction = draws.direction();
     const Interval range = flare_factor_interval(flare, ball), in_box = flare_factor_interval(flare, ball, half);
-    const FlareCourse course = flare_course(flare, {ball, direction, 0, false}), line = flare_course(flare, {ball, direction, 0, true});
+    const FlareCourse course = flare_course(flare, {ball, direction}), line = flare_course(flare, {ball, direction, 0, ball.radius});
     ASSERT_GE(in_box.lo, range.lo);
     ASSERT_LE(in_box.hi, range.hi);
-    ASSERT_GE(line.log_slope.lo, course.log_slope.lo - 1e-12);
+    ASSERT_GE(line.log_slope.lo, course.log_slope.lo - 1e-9);
+    ASSERT_LE(line.factor.hi, course.factor.hi + 1e-9);
     for (int k = 0; k < 30; ++k) {
       const Vec3 p = ball.center + ball.radius * std::cbrt(draws.in(0, 1)) * draws.direction();
       const FlareFactor m = flare_factor_gradient(flare, p);
@@ -299,11 +300,13 @@ TEST(Flare, BoundsOfItsFactorHoldEverySampleAndCloseIn) {
       ASSERT_TRUE(course.log_slope.lo <= slope + slack && slope - slack <= course.log_slope.hi);
       const Vec3 q = draws.point({ball.center - half, ball.center + half});
       ASSERT_TRUE(in_box.contains(flare_factor(flare, q)));
-      const double on_line = glm::dot(flare_factor_gradient(flare, ball.center + draws.in(-1, 1) * ball.radius * direction).log_gradient, direction);
-      ASSERT_TRUE(line.log_slope.lo <= on_line + 1e-9 * (1 + std::abs(on_line)) && on_line - 1e-9 * (1 + std::abs(on_line)) <= line.log_slope.hi);
+      const FlareFactor there = flare_factor_gradient(flare, ball.center + draws.in(-1, 1) * ball.radius * direction);
+      const double along = glm::dot(there.log_gradient, direction), hair = 1e-9 * (1 + std::abs(along));
+      ASSERT_TRUE(line.factor.contains(there.value));
+      ASSERT_TRUE(line.log_slope.lo <= along + hair && along - hair <= line.log_slope.hi);
     }
     const Ball tiny{around(0.5, 0.4, 0.3), 1e-6};
-    const FlareCourse there = flare_course(flare, {tiny, direction, 0, false});
+    const FlareCourse there = flare_course(flare, {tiny, direction});
     ASSERT_LT(there.factor.hi - there.factor.lo, 1e-4);
     ASSERT_LT(there.log_slope.hi - there.log_slope.lo, 0.1);
   }
