@@ -239,8 +239,9 @@ class FlareRange {
 
 Interval around(double center, double reach) { return {center - reach, center + reach}; }
 
-FlareRange range_in(const CompiledFlare& flare, const Vec3& at, double z_reach, double reach) {
-  return FlareRange(flare, around(at.x, z_reach), arc_of_ball(std::atan2(at.z, at.y), std::hypot(at.y, at.z), reach));
+/// Of a ball, a hair more: points and balls round differently.
+double reach_of(const CompiledFlare& flare, const Ball& ball) {
+  return ball.radius * (1 + 1e-12) + 1e-15 * (glm::length(ball.center) + glm::length(flare.base));
 }
 
 }  // namespace
@@ -266,11 +267,12 @@ Interval flare_factor_interval(const CompiledFlare& flare, const Ball& ball) {
 
 Interval flare_factor_interval(const CompiledFlare& flare, const Ball& ball, const Vec3& half_size) {
   const Vec3 at = flare.local(ball.center);
+  const double reach = reach_of(flare, ball);
   double z_reach = 0;
   for (int i = 0; i < 3; ++i) z_reach += times(std::abs(flare.axis[i]), half_size[i]);
-  z_reach = std::min(z_reach, ball.radius);
-  if (at.x - z_reach >= flare.height) return {1, 1};
-  return range_in(flare, at, z_reach, ball.radius).factor();
+  const Interval z = around(at.x, std::min(z_reach, reach));
+  if (z.lo >= flare.height) return {1, 1};
+  return FlareRange(flare, z, arc_of_ball(std::atan2(at.z, at.y), std::hypot(at.y, at.z), reach)).factor();
 }
 
 namespace {
@@ -300,7 +302,7 @@ WayAbout about_line(const CompiledFlare& flare, const Vec3& middle, const Vec3& 
 
 WayAbout about_ball(const CompiledFlare& flare, const FlareWay& way) {
   const Vec3 at = flare.local(way.ball.center);
-  const double reach = way.ball.radius * (1 + 1e-9), rho = std::hypot(at.y, at.z), least = std::max(0.0, rho - reach);
+  const double reach = reach_of(flare, way.ball), rho = std::hypot(at.y, at.z), least = std::max(0.0, rho - reach);
   const double vx = glm::dot(way.velocity, flare.x), vy = glm::dot(way.velocity, flare.y);
   return {around(at.x, reach), arc_of_ball(std::atan2(at.z, at.y), rho, reach), {least * least, (rho + reach) * (rho + reach)},
           around(at.y * vy - at.z * vx, reach * std::hypot(vx, vy) + (rho + reach) * way.turn)};

@@ -30,6 +30,8 @@ enum class FlareSection : std::uint8_t { kEnvelope, kQuadrifolium, kCircle };
 struct Prong { double angle = 0, length = 1; };                ///< length: how sharp it is, as a factor
 /// A chain that is wider at its base (field.md section 6b): a circle at `height` above it, and from there down ever more spread
 /// and pronged. Prongs stand at angles about the axis, right-handed from the x axis made orthogonal to it (y axis if parallel).
+/// Not continuous on the axis where the chain is not on it, as below the chain's end: let the chain run on into the ground and cut it there.
+/// Across the plane of the base the gradient has a crease.
 struct Flare {
   std::vector<ChainNode> nodes;
   Vec3 base, axis;
