@@ -129,6 +129,7 @@ Outcome run_render(Job& job) {
   if (job.line.close_up) job.recipe.render.close_up = NamedBranch{*job.line.close_up, {"--close-up"}};
   aim_at_branches(job.recipe.render, field, built->branches);
   options.camera = job.recipe.render.camera;
+  if (!options.light.ground_height) options.light.ground_height = built->ground;
   Leaves leaves = dress_leaves(job, *built);
   const auto renderer = [&] {
     const StageTimer timer(job.figures, "render_cover");

@@ -81,6 +81,7 @@ Surfaced surface_with_places(const Job& job, const Plant& plant) {
     return surface(skeleton, options, plant.foliage);
   } catch (const InputError& error) {
     if (!error.location().file.empty()) throw;
+    if (error.found().starts_with("base: ")) throw InputError(job.recipe.base_at, error.found(), error.expected());
     const auto refused_alone = [&](const std::vector<Prune>& prunes, const std::vector<Scar>& scars) {
       SurfaceOptions alone = options;
       alone.prunes = prunes;
@@ -158,7 +159,7 @@ std::optional<Plant> grow_plant(Job& job) {
 std::optional<BuiltTree> build_tree(Job& job, double thinnest) {
   if (job.source_kind == InputKind::kBlobTree) {
     const StageTimer timer(job.figures, "read");
-    return BuiltTree{read_blobtree(job.source), std::nullopt, {}, {}, {}};
+    return BuiltTree{read_blobtree(job.source), std::nullopt, {}, {}, {}, {}};
   }
   const auto plant = grow_plant(job);
   if (!plant || job.run.cancelled()) return std::nullopt;
@@ -171,8 +172,10 @@ std::optional<BuiltTree> build_tree(Job& job, double thinnest) {
   }
   const StageTimer timer(job.figures, "surface");
   Surfaced surfaced = surface_with_places(job, *plant);
+  std::optional<double> ground;
+  if (const auto& base = job.recipe.surface.base) ground = ground_of(*base, plant->skeleton.nodes[0].position).point.z;
   return BuiltTree{std::move(surfaced.tree), std::move(surfaced.report), std::move(surfaced.branches), std::move(surfaced.foliage),
-                   std::move(surfaced.organ_branches)};
+                   std::move(surfaced.organ_branches), ground};
 }
 
 Field compile_field(Job& job, const BlobTree& tree) {

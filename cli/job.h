@@ -55,6 +55,7 @@ struct BuiltTree {
   std::vector<BranchInfo> branches;              ///< by id; empty if it was read from a file
   Foliage foliage;                               ///< where the surfaced wood bears it
   std::vector<std::uint32_t> organ_branches;     ///< by organ
+  std::optional<double> ground;                  ///< metres: the height of what the trunk stands on, where the recipe has a base
 };
 /// thinnest: twigs of a skeleton are thickened to this part of its diagonal, for what is only a first look.
 std::optional<BuiltTree> build_tree(Job& job, double thinnest = 0);

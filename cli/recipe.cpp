@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cli/read_text.h"
+#include "cli/recipe_base.h"
 #include "cli/recipe_graph_tables.h"
 #include "cli/recipe_leaf.h"
 #include "cli/recipe_override.h"
@@ -222,6 +223,7 @@ const KeyRule<VolumeOptions> kVolumeKeys[] = {
 const KeyRule<Recipe> kRecipeKeys[] = {
     {"skeleton", [](const RecipeValue& v, Recipe& r) { read_table(v, kSkeletonKeys, r.skeleton); }},
     {"surface", [](const RecipeValue& v, Recipe& r) { read_table(v, kSurfaceKeys, r.surface); }},
+    {"base", [](const RecipeValue& v, Recipe& r) { r.surface.base = read_trunk_base(v), r.base_at = v.location(); }},
     {"prune", read_prunes},
     {"scar", read_scars},
     {"scars", [](const RecipeValue& v, Recipe& r) { read_table(v, kRandomScarsKeys, r.surface.random_scars); }},

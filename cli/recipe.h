@@ -91,6 +91,7 @@ struct MeshRecipe {
 struct Recipe {
   SkeletonRecipe skeleton;
   SurfaceOptions surface;
+  SourceLocation base_at;                           ///< of surface.base
   std::vector<SourceLocation> prunes_at, scars_at;  ///< of surface.prunes and surface.scars
   std::vector<BarkRecipe> bark;                     ///< by branch order, the last goes on; empty: the built-in
   bool leaves = true;                               ///< unset: foliage is left out

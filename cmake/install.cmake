@@ -6,7 +6,7 @@ set(public_headers
   blobtree/id_table.h blobtree/input_error.h blobtree/invalid_node.h blobtree/node_store.h blobtree/nodes.h blobtree/run_options.h
   blobtree/box_tree.h blobtree/branch_info.h blobtree/choices.h blobtree/float_box.h blobtree/place_hash.h blobtree/sheet.h
   blobtree/surface_cover.h
-  skeletons/foliage.h skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h
+  skeletons/foliage.h skeletons/skeleton.h skeletons/skeleton_io.h skeletons/surface.h skeletons/surface_roots.h skeletons/trunk_base.h
   skeletons/graph/closed_mesh.h skeletons/graph/edge_weights.h skeletons/graph/graph_volume.h skeletons/graph/node_graph.h
   skeletons/graph/plan.h skeletons/graph/prepared_solid.h skeletons/graph/refinement.h skeletons/graph/settled_cells.h skeletons/graph/solids.h
   skeletons/graph/svg_path.h

@@ -20,7 +20,9 @@ class ChainProfile {
       if (axes_[i].parent < 0) roots.push_back(built_[i]);
     if (stubs_ > 0) report_.notes.push_back(std::to_string(stubs_) + " laterals end within the wood that bears them and became stubs.");
     if (buried_ > 0) report_.notes.push_back(std::to_string(buried_) + " laterals lie within the wood that bears them and were left out.");
-    return roots.size() == 1 ? roots[0] : builder_.add(Sum{std::move(roots)});
+    const NodeId all = roots.size() == 1 ? roots[0] : builder_.add(Sum{std::move(roots)});
+    if (!options_.base || options_.base->below == BelowGround::kKeep) return all;
+    return cut_at_ground(all, ground(), axes_[0].nodes[0].radius, builder_);
   }
 
  private:
@@ -64,14 +66,26 @@ class ChainProfile {
   Lateral lateral_of(std::size_t i, std::uint32_t k) const {
     const Axis &axis = axes_[i], &lateral = axes_[k];
     const double parent_radius = radius_at(axis, lateral.attach), radius = lateral.nodes[0].radius;
+    const Vec3 along = tangent_at(axis, lateral.attach);
     Lateral made;
     made.child = built_[k];
     made.point = position_at(axis, lateral.attach);
-    made.direction = across(segment_direction(lateral, 0), tangent_at(axis, lateral.attach));
+    made.direction = across(segment_direction(lateral, 0), is_root(axis, lateral) ? -along : along);
     made.softness = 0.6 * radius;
     made.reach = 2 * (parent_radius + radius);
     return made;
   }
+
+  /// What leaves a trunk at its foot, not upwards, is a root: the trunk melts into it from above, and its crotch is below.
+  static bool is_root(const Axis& axis, const Axis& lateral) {
+    constexpr double kFootRadii = 0.5, kUpwards = 0.35;
+    if (axis.parent >= 0) return false;
+    const Vec3 foot = axis.nodes[0].position, along = tangent_at(axis, lateral.attach);
+    return glm::distance(position_at(axis, lateral.attach), foot) <= kFootRadii * axis.nodes[0].radius &&
+           glm::dot(segment_direction(lateral, 0), along) < kUpwards;
+  }
+
+  GroundPlane ground() const { return ground_of(*options_.base, axes_[0].nodes[0].position); }
 
   static constexpr double kClearance = 1.75;   // of its radius: where a lateral starts, from the axis, less the parent's radius
 
@@ -153,7 +167,8 @@ class ChainProfile {
   }
 
   NodeId add_chain(std::size_t i, std::vector<ChainNode> nodes, double along, const Vec3& u) {
-    const NodeId id = builder_.add(Chain{std::move(nodes)});
+    const bool is_base = i == 0 && options_.base;
+    const NodeId id = is_base ? builder_.add(flared(std::move(nodes), *options_.base, ground(), options_.seed)) : builder_.add(Chain{std::move(nodes)});
     builder_.set_attributes(id, {axes_[i].branch, axes_[i].order, frames_[i].v + along, u});
     return id;
   }

@@ -19,6 +19,9 @@ void check(const SurfaceOptions& options) {
     throw InputError({}, "lip " + std::to_string(options.lip), "a lip from 0 to 4");
   for (const double angle : options.bend)
     if (!std::isfinite(angle)) throw InputError({}, "a bend that is no number", "a finite angle");
+  if (!options.base) return;
+  check_trunk_base(*options.base);
+  if (options.profile != Profile::kChain) throw InputError({}, "base: a flare on the galbraith profile", "profile chain");
 }
 
 void describe(const AxisTree& tree, SurfaceReport& report) {
@@ -49,11 +52,7 @@ std::vector<BranchInfo> branches_of(const AxisTree& tree) {
   return branches;
 }
 
-}  // namespace
-
-Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const Foliage& foliage) {
-  if (skeleton.nodes.empty()) throw InputError({}, "a skeleton without nodes", "at least one");
-  check(options);
+Surfaced surfaced(const Skeleton& skeleton, const SurfaceOptions& options, const Foliage& foliage) {
   Surfaced made;
   SurfaceReport& report = made.report;
   for (const SkeletonNode& node : skeleton.nodes) report.internodes_in += node.parent >= 0 ? 1 : 0;
@@ -76,6 +75,15 @@ Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const 
     throw InputError({}, error.found() + " as " + error.key() + " of the surface", error.expected());
   }
   return made;
+}
+
+}  // namespace
+
+Surfaced surface(const Skeleton& skeleton, const SurfaceOptions& options, const Foliage& foliage) {
+  if (skeleton.nodes.empty()) throw InputError({}, "a skeleton without nodes", "at least one");
+  check(options);
+  if (options.base && options.base->roots.length > 0) return surfaced(rooted(skeleton, *options.base, options.seed), options, foliage);
+  return surfaced(skeleton, options, foliage);
 }
 
 }  // namespace cambium

@@ -6,6 +6,7 @@
 #include "blobtree/run_options.h"
 #include "skeletons/foliage.h"
 #include "skeletons/skeleton.h"
+#include "skeletons/trunk_base.h"
 
 #include <optional>
 #include <string>
@@ -59,6 +60,7 @@ struct SurfaceOptions {
   std::vector<Prune> prunes;
   std::vector<Scar> scars;
   RandomScars random_scars;
+  std::optional<TrunkBase> base;       ///< of the trunk that the first node is the root of; on the chain profile only
   std::uint64_t seed = 0;
 };
 
