@@ -3,6 +3,7 @@
 #include "blobtree/input_error.h"
 
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/ChangeBackground.h>
 #include <openvdb/tools/Interpolation.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ std::string text_of(const openvdb::Vec3d& p) {
   return "(" + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " + std::to_string(p.z()) + ")";
 }
 
-Grid::ConstPtr read_grid(const std::filesystem::path& path, const std::string& name) {
+Grid::Ptr read_grid(const std::filesystem::path& path, const std::string& name) {
   openvdb::initialize();   // more than once does nothing
   openvdb::io::File file(path.string());
   file.open(false);   // all of it is read now
@@ -27,6 +28,11 @@ Grid::ConstPtr read_grid(const std::filesystem::path& path, const std::string& n
     if (!name.empty()) throw InputError({path.string()}, "the grid '" + name + "' of another kind", "a grid of floats");
   }
   throw InputError({path.string()}, "no grid of floats" + (name.empty() ? "" : " named '" + name + "'"), "a grid of floats");
+}
+
+/// Nothing outside of what was painted: what most tools write there.
+void take_zero_for_one(Grid& grid) {
+  if (grid.background() == 0) openvdb::tools::changeBackground(grid.tree(), 1.0f);
 }
 
 void require_factors(const Grid& grid, const std::filesystem::path& path) {
@@ -44,7 +50,9 @@ void require_factors(const Grid& grid, const std::filesystem::path& path) {
 std::function<double(const Vec3&)> read_factor_volume(const std::filesystem::path& path, const std::string& name) {
   Grid::ConstPtr grid;
   try {
-    grid = read_grid(path, name);
+    const Grid::Ptr read = read_grid(path, name);
+    take_zero_for_one(*read);
+    grid = read;
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
