@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes the README's pictures again: docs/poplar.jpg, docs/poplar_closeup.jpg, docs/junctions.jpg and docs/wireframe.png.
+# Makes the README's pictures again: docs/poplar.jpg, docs/poplar_closeup.jpg, docs/junctions.jpg, docs/base.jpg
+# and docs/wireframe.png.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
@@ -10,6 +11,7 @@ render "$top/examples/poplar_closeup.tree.toml" -o "$top/docs/poplar_closeup.jpg
 render "$top/examples/junctions.blob.json" -o "$top/docs/junctions.jpg" --size 1400x420 --samples 16 \
   --set render.camera.azimuth=-90 --set render.camera.elevation=6 --set render.camera.fov=20 \
   --set 'bark.style="smooth"' --set 'bark.color="#b9ad9a"' --set 'bark.crack_color="#a89c88"'
+render "$top/examples/bases/moreton_bay_fig.tree.toml" -o "$top/docs/base.jpg" --samples 1..8
 
 # A junction, and twigs of millimetres on half a metre of wood, both at 1 mm.
 meshes=$(mktemp -d)
