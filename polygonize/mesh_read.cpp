@@ -88,7 +88,7 @@ class PlyBytes {
     const std::string_view text = word();
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) refuse(quoted(text), "a number");
+    if (text.empty() || end != text.data() + text.size() || error != std::errc{}) refuse(quoted(text), "a number");
     return value;
   }
 

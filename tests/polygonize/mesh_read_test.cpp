@@ -106,6 +106,7 @@ TEST(MeshRead, RefusesMalformedTextNamingLineAndColumn) {
   expect_refused(format + "element nothing 4000000000\n" + vertex + face + "end_header\n", 0, 0, "without properties");
   expect_refused(kHeader, 11, 1, "the end");
   expect_refused(kHeader + "0 0 0\n1 x", 12, 3, "'x'");
+  expect_refused(kHeader + "0 0 0\n1 1e400 2", 12, 3, "'1e400'");
   expect_refused(kHeader + "0 0 0\n1 nan 2", 12, 3, "not finite");
   expect_refused(kHeader + "0 0 0\n1 0 inf", 12, 5, "not finite");
   expect_refused(kHeader + kVertices + "2 0 1\n", 15, 1, "three corners");
