@@ -2,6 +2,7 @@
 
 #include "blobtree/input_error.h"
 #include "blobtree/place_hash.h"
+#include "skeletons/number_checks.h"
 #include "skeletons/profiles.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 enum Purpose : std::uint64_t { kProngs = 71, kRoots };
 
 void require(bool holds, const char* key, double value, const char* expected) {
-  if (!holds) throw InputError({}, "base: " + std::string(key) + " = " + std::to_string(value), expected);
+  require_number(holds, "base: " + std::string(key), value, expected);
 }
 
 void check_roots(const SurfaceRootOptions& roots) {

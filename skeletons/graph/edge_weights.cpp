@@ -1,6 +1,7 @@
 #include "skeletons/graph/edge_weights.h"
 
 #include "blobtree/input_error.h"
+#include "skeletons/number_checks.h"
 
 #include <cmath>
 #include <string>
@@ -8,11 +9,6 @@
 
 namespace cambium {
 namespace {
-
-void require_positive(double value, const char* key) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw InputError({}, std::string(key) + " = " + std::to_string(value), "a finite " + std::string(key) + " above 0");
-}
 
 /// 1 in the middle, 0 from the rim on, smooth at both; t: the distance from the middle in radii.
 double softness(double t) {

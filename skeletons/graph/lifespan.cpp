@@ -1,6 +1,7 @@
 #include "skeletons/graph/lifespan.h"
 
 #include "blobtree/input_error.h"
+#include "skeletons/number_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@ namespace cambium {
 namespace {
 
 constexpr double kLongestLife = 1000;
-
-std::string numbered(const char* key, double value) { return std::string(key) + " = " + std::to_string(value); }
 
 }  // namespace
 

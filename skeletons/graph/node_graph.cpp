@@ -4,6 +4,7 @@
 #include "skeletons/graph/component_repair.h"
 #include "skeletons/graph/node_chunks.h"
 #include "skeletons/graph/node_grid.h"
+#include "skeletons/number_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -198,10 +199,6 @@ std::optional<NodeGraph> near_pairs(const JoinRules& rules, double longest, cons
   return graph;
 }
 
-void require(bool holds, const char* key, double value, const char* expected) {
-  if (!holds) throw InputError({}, std::string(key) + " = " + std::to_string(value), expected);
-}
-
 }  // namespace
 
 double longest_yao_edge(std::span<const Vec3> positions, double spacing, int sectors) {
@@ -210,8 +207,8 @@ double longest_yao_edge(std::span<const Vec3> positions, double spacing, int sec
 
 std::optional<NodeGraph> join_nodes(std::span<const Vec3> positions, double spacing, std::span<const std::uint16_t> parts,
                                     const Obstacles* obstacles, const EdgeOptions& options, const RunOptions& run) {
-  require(spacing > 0 && std::isfinite(spacing), "spacing", spacing, "a finite spacing above 0");
-  if (options.rule == EdgeRule::kThreshold) require(options.threshold > 1, "threshold", options.threshold, "more than 1");
+  require_positive(spacing, "spacing");
+  if (options.rule == EdgeRule::kThreshold) require_number(options.threshold > 1, "threshold", options.threshold, "more than 1");
   const JoinRules rules{positions, parts, obstacles};
   std::optional<NodeGraph> graph = options.rule == EdgeRule::kThreshold ? near_pairs(rules, options.threshold * spacing, run)
                                                                         : yao_graph(rules, spacing, options.sectors, run);

@@ -2,6 +2,7 @@
 
 #include "skeletons/graph/lifespan.h"
 #include "skeletons/graph/subgraph.h"
+#include "skeletons/number_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,6 @@ constexpr int kMostEndpoints = 10'000'000;
 
 void require(bool holds, const std::string& found, const std::string& expected) {
   if (!holds) throw InputError({}, found, expected);
-}
-
-std::string numbered(const std::string& key, double value) { return key + " = " + std::to_string(value); }
-
-void require_positive(double value, const std::string& key) {
-  require(value > 0 && std::isfinite(value), numbered(key, value), "a finite " + key + " above 0");
 }
 
 bool is_direction(const Vec3& v) { return glm::length(v) > 0 && std::isfinite(glm::length(v)); }

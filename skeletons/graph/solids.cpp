@@ -4,6 +4,7 @@
 #include "skeletons/graph/closed_mesh.h"
 #include "skeletons/graph/prepared_solid.h"
 #include "skeletons/graph/revolution.h"
+#include "skeletons/number_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +18,6 @@ template <class... Cases>
 struct Match : Cases... { using Cases::operator()...; };
 template <class... Cases>
 Match(Cases...) -> Match<Cases...>;
-
-void require_positive(double value, const char* key) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw InputError({}, std::string(key) + " = " + std::to_string(value), "a finite " + std::string(key) + " above 0");
-}
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include "blobtree/geometry.h"
 #include "blobtree/input_error.h"
 #include "skeletons/graph/svg_text.h"
+#include "skeletons/number_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -221,11 +222,6 @@ class StrokeMaker {
   const SvgStrokeOptions& options_;
   SvgCursor path_;
 };
-
-void require_positive(double value, const char* key) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw InputError({}, std::string(key) + " = " + std::to_string(value), "a finite " + std::string(key) + " above 0");
-}
 
 }  // namespace
 
